@@ -31,7 +31,7 @@ Connection::State Connection::send(std::string_view line, base::TimePoint deadli
             const State state = wait({.to_write = true}, deadline);
             if (state != State::good) return state;
         } else {
-            return State::good; // it may have said why before it broke off
+            return State::good; // lines that it sent before it closed may say why
         }
     }
     return State::good;

@@ -19,7 +19,7 @@ class Connection {
 public:
     enum class State : std::uint8_t {
         good,
-        closed,  // the program has ended, or broken off
+        closed,  // the program has ended or closed the connection
         late,    // no answer in time
         stopped, // a signal came
     };

@@ -17,7 +17,7 @@ constexpr const char* description =
     "Shows the state of a running hapnet-emulator or hapnet-peer, changes an emulator, and stops "
     "either.";
 
-constexpr base::Duration longest{std::chrono::hours{24}}; // of what the control socket takes
+constexpr base::Duration longest{std::chrono::hours{24}}; // limit of times at the control socket
 
 constexpr const char* footer =
     R"(SOCKET is the path that the program was given as --control. Without it $HAPNET_SOCKET counts.

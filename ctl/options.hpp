@@ -19,15 +19,15 @@ struct Options {
     std::string command; // "show", "set", ...
     std::vector<std::pair<std::string, std::string>> settings;
     std::optional<base::Duration> lasting; // --for
-    std::string file;                      // of apply and diff; "-" is stdin
+    std::string file;                      // argument of apply and diff; "-" is stdin
     std::string until;
-    std::string name; // of keep
+    std::string name; // argument of keep
     std::optional<base::Duration> last;
     std::optional<base::Duration> timeout;
     std::optional<base::Duration> every;
     bool of_frames = false; // watch --frames
     bool as_json = false;
-    bool as_csv = false; // of stats
+    bool as_csv = false; // option of stats
 };
 
 /// `default_socket` is that of $HAPNET_SOCKET; nullptr where it is not set.

@@ -47,7 +47,7 @@ std::string csv_lines(const Json& json, const std::string& key)
         return fmt::format("{},{}\n", base::csv_quoted(key), base::csv_quoted(text));
     }
     std::string lines;
-    for (const auto& [name, value] : json.items()) { // a list has its places, from 0 on, as names
+    for (const auto& [name, value] : json.items()) { // the names in a list are 0, 1, ...
         lines += csv_lines(value, key.empty() ? name : key + '.' + name);
     }
     return lines;

@@ -53,7 +53,7 @@ public:
 
 private:
     std::uint8_t held_ = 0;
-    std::uint8_t changing_ = 0; // those that say otherwise, since
+    std::uint8_t changing_ = 0; // switches that differ from held_, each since since_[i]
     std::array<base::TimePoint, 8> since_{};
     std::uint16_t presses_ = 0;
 };

@@ -19,15 +19,15 @@ inline constexpr std::string_view never_run = "never run on the physical device"
 /// The identity of a device.
 struct Identity {
     std::string backend{}; // as in --device BACKEND:SERIAL
-    std::string serial{};  // "": it has none
+    std::string serial{};  // "": the device has none
     std::string model{};   // such as "PHANToM Omni (FireWire)"
-    std::string note{};    // for the user, such as never_run
+    std::string note{};    // a remark for the user, such as never_run
 };
 
 /// The clock of the loop.
 enum class Pacing : std::uint8_t {
-    host,   // it answers when asked
-    device, // it, or its library, owns the loop: see Device::pace()
+    host,   // the device answers when asked
+    device, // the device or its library owns the loop: see Device::pace()
 };
 
 /// A kind of arm: the key of its joints' limits in texts, such as "omni_torque_max", and its
@@ -49,23 +49,24 @@ struct Capabilities {
     base::Position workspace_min{{-0.08, -0.06, -0.035}};
     base::Position workspace_max{{0.08, 0.06, 0.035}};
     double force_max_n = 0.0;           // peak, in any direction
-    double force_continuous_n = 0.0;    // that its motors bear for ever
-    double stiffness_max_n_per_m = 0.0; // of a contact that stays stable; 0: not known
-    double damping_max_ns_per_m =
-        0.0;                   // likewise; for information only, scenes are not limited by it
-    double resolution_m = 0.0; // of positions
-    double friction_n = 0.0;   // to be overcome at the grip (Coulomb); 0: not known
+    double force_continuous_n = 0.0;    // the motors can hold it without a time limit
+    double stiffness_max_n_per_m = 0.0; // stiffest contact that stays stable; 0: not known
+    /// Greatest damping of a contact that stays stable; 0: not known. For information only: scenes
+    /// are not limited by it.
+    double damping_max_ns_per_m = 0.0;
+    double resolution_m = 0.0; // smallest step of a position
+    double friction_n = 0.0;   // Coulomb friction at the grip; 0: not known
     /// No hand moves the device faster than this: 1 m/s is far above any task.
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_in = 3;
-    int axes_out = 3; // the first n axes; 0: it has no motors
+    int axes_out = 3; // number of axes with motors, from x on
     int buttons = 1;
-    bool has_holder = false; // for its stylus, and it knows when that rests there
+    bool has_holder = false; // the device knows when its stylus rests in the holder
     bool has_orientation = false;
-    bool force_is_calibrated = true; // a newton is a newton
+    bool force_is_calibrated = true; // false: forces in newtons are nominal
     Pacing pacing = Pacing::host;
     double rate_hz = 1000.0;             // nominal
-    std::optional<JointLimits> joints{}; // where they are known
+    std::optional<JointLimits> joints{}; // nullopt: not known
 };
 
 } // namespace hapnet::device

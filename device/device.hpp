@@ -19,7 +19,7 @@ namespace hapnet::device {
 /// A device that was seen.
 struct Found {
     Identity identity;
-    std::optional<DeviceError> unusable{}; // why, and the cure
+    std::optional<DeviceError> unusable{}; // why it cannot be used, and the cure; nullopt: it can
 };
 
 /// A device's report on its stylus, in the device's own frame: right-handed, x right, y up, z
@@ -29,12 +29,12 @@ struct Sample {
     base::Velocity velocity; // already smoothed as the device's resolution demands
     bool gripping = false;   // the primary button is held down
     bool docked = false;     // the stylus rests in its holder, in no hand
-    bool calibrated = true;  // positions mean something
+    bool calibrated = true;  // false: positions are meaningless
     Fault fault = Fault::none;
     std::uint8_t buttons = 0;  // one bit each, debounced; bit 0 is the primary one
-    std::uint16_t presses = 0; // of the primary button, counted: for rare readers
-    std::uint64_t sequence =
-        0; // grows with every report from the device: otherwise this one is old
+    std::uint16_t presses = 0; // number of presses of the primary button
+    /// Grows with every report from the device; an unchanged number marks an old sample.
+    std::uint64_t sequence = 0;
 };
 
 /// True if a hand holds the stylus at the sample's place. False for an uncalibrated device, a
@@ -47,7 +47,7 @@ struct Sample {
 /// The next step of a calibration.
 enum class CalibrationStep : std::uint8_t {
     done,
-    busy,         // the device is at it: ask again
+    busy,         // the device calibrates itself: ask again
     dock_stylus,  // the person is to put the stylus into its holder
     sweep_joints, // the person is to move the grip through its whole reach, to every stop
     failed,       // the sample's fault says why
@@ -58,13 +58,13 @@ enum class CalibrationStep : std::uint8_t {
 /// The start of a session, for the holder of the device. A person reads it off the screen; a
 /// simulated hand plays its task by it.
 struct Cue {
-    base::TimePoint start;   // of the session
-    base::Duration hands_on; // from the start; then the hands let go
-    base::Seed seed;         // of the session
+    base::TimePoint start;   // start of the session
+    base::Duration hands_on; // time from the start until the hands let go
+    base::Seed seed;         // seed of the session
     std::uint16_t peer_id = 0;
     bool is_left = true;
-    double share = 1.0;   // of what the hands on its side press with, together
-    bool is_first = true; // of the hands on its side
+    double share = 1.0;   // this hand's share of the force of all hands on its side
+    bool is_first = true; // the first of the hands on its side
 };
 
 /// A haptic device: up to three degrees of freedom in and out. The one interface to all of them.

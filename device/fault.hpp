@@ -18,17 +18,17 @@ enum class Fault : std::uint8_t {
     none,
     not_found,
     permission,       // the system refuses access
-    in_use,           // another program has it
-    firmware_missing, // it runs only on firmware that a user has to supply
-    library_missing,  // its vendor's library
-    communication,    // its reports make no sense, or its library reports an error of the line
-    timeout,          // it does not answer any more
+    in_use,           // another program uses the device
+    firmware_missing, // the device needs firmware that the user has to supply
+    library_missing,  // the vendor's library is missing
+    communication,    // reports make no sense, or the library reports a communication error
+    timeout,          // the device no longer answers
     overheat,
     over_force,
     over_velocity,
-    not_calibrated, // it lost its calibration
+    not_calibrated, // the device lost its calibration
     disconnected,
-    internal, // of a library, or of this program
+    internal, // an error inside a library or this program
 };
 
 /// The names of faults in statistics.

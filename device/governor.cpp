@@ -12,7 +12,7 @@ namespace hapnet::device {
 
 namespace {
 
-/// A force that only grows smaller, without turning round.
+/// True if the force only becomes smaller, without turning round.
 bool is_release(const base::Force& from, const base::Force& to)
 {
     const glm::dvec3& a = from.value;
@@ -113,7 +113,7 @@ bool Governor::may_push(const Sample& sample, base::Duration gap)
     } else if (latch_.on_sample(sample, gap)) {
         ++counters_.resets;
     }
-    return false; // from the next tick on
+    return false; // a latch that has just opened permits force from the next tick on
 }
 
 void Governor::count(Finding finding)
@@ -174,7 +174,7 @@ base::Force Governor::shape(base::Force wanted, const Sample& sample)
         force = base::limited(force, bearable_n);
     }
     force = slew(strength_ * force);
-    if (strength_ == 0.0) return {}; // zero when in doubt, whatever the slew
+    if (strength_ == 0.0) return {}; // zero when in doubt, whatever the slew limit
     if (!inside) force = with_outward_part_cut(limits_, sample.hip, force);
     if (limits_.joints) {
         const double share = share_that_joints_bear(*limits_.joints, sample.hip, force);

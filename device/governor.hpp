@@ -58,7 +58,7 @@ struct GovernorCounters {
     std::uint64_t flattened = 0;
     std::uint64_t outside = 0;
     std::uint64_t slewed = 0;
-    std::uint64_t energy_limited = 0; // to what may go into the hand
+    std::uint64_t energy_limited = 0; // forces reduced by the limits of the energy
     std::uint64_t faded = 0;
     std::uint64_t stalled = 0;
     std::uint64_t silent = 0;
@@ -104,7 +104,7 @@ enum class GovernorState : std::uint8_t {
     off,         // no report from the device yet
     calibrating, // positions mean nothing yet
     ready,       // zero force: docked, or nothing is permitted
-    ramping,     // at part of its strength: on its way in or out
+    ramping,     // at part of the strength: the force fades in or out
     active,
     fault, // latched: zero force until an operator has acted
     /// A governor itself never has this state: a person has stopped the force, and the loop keeps
@@ -158,9 +158,9 @@ private:
     /// The effects of a gap between two ticks.
     struct Step {
         base::Duration gap{};
-        double ramp = 0.0;   // of strength
-        double fade = 0.0;   // of strength
-        double slew_n = 0.0; // of force
+        double ramp = 0.0;   // change of the strength
+        double fade = 0.0;   // change of the strength
+        double slew_n = 0.0; // largest change of the force
         double slew_ramping_n = 0.0;
     };
     [[nodiscard]] Step step_of(base::Duration gap) const;
@@ -180,12 +180,12 @@ private:
     std::optional<EnergyGuard> energy_;
     SampleCheck check_;
     FaultLatch latch_;
-    Finding finding_ = Finding::unheard; // of the last sample
-    Step step_;                          // of the last gap: in a steady loop it stays the same
-    base::Force last_;                   // what the next force may differ from by one step only
-    base::Force held_;                   // what the device was given last
-    double strength_ = 0.0;              // 0: nothing passes, 1: all does
-    bool from_zero_ = true;              // it has not been at full strength since it was at zero
+    Finding finding_ = Finding::unheard; // result for the last sample
+    Step step_;                          // for the last gap; constant in a steady loop
+    base::Force last_;                   // force from which the slew limit of the next tick starts
+    base::Force held_;                   // force that the device was given last
+    double strength_ = 0.0;              // share of the force that passes, 0 to 1
+    bool from_zero_ = true;              // not yet at full strength since the last zero
     std::optional<base::TimePoint> last_time_;
 };
 

@@ -50,7 +50,8 @@ public:
     [[nodiscard]] Device& device() { return *device_; }
     [[nodiscard]] const Device& device() const { return *device_; }
     [[nodiscard]] const Mount& mount() const { return mount_; }
-    [[nodiscard]] CalibrationStep calibration() const { return calibration_; } // of the last read()
+    /// The calibration step as of the last read().
+    [[nodiscard]] CalibrationStep calibration() const { return calibration_; }
 
 private:
     void count(std::uint64_t sequence_before);
@@ -62,10 +63,10 @@ private:
     Mount mount_;
     CalibrationStep calibration_ = CalibrationStep::done;
     RigCounters counters_;
-    std::uint64_t repeated_ = 0; // in a row
-    bool is_at_fault_ = false;   // as the device was told
-    Sample own_;                 // the last one, as the device gave it
-    Sample scene_;               // ... and in the scene
+    std::uint64_t repeated_ = 0; // latest reads in a row without a new sample
+    bool is_at_fault_ = false;   // fault state that the device was told last
+    Sample own_;                 // last sample, in the device's frame
+    Sample scene_;               // last sample, in the scene's frame
 };
 
 } // namespace hapnet::device

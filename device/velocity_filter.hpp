@@ -27,7 +27,7 @@ private:
     double cutoff_hertz_;
     std::optional<Last> last_;
     glm::dvec3 velocity_{0.0};
-    base::Duration elapsed_{}; // what the next two are for
+    base::Duration elapsed_{}; // time step that keeps_ and gain_per_s_ are for
     double keeps_ = 0.0;
     double gain_per_s_ = 0.0;
 };

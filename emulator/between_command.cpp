@@ -42,7 +42,7 @@ std::vector<Place> places_of(std::size_t count)
         place.end = {.wire = "wire-" + place.name,
                      .addresses = {{place.address, 24}, {place.address_v6, 64}}};
         auto& machine = place.end.machine.emplace();
-        machine.front() = std::byte{2}; // administered here
+        machine.front() = std::byte{2}; // a locally administered address
         machine.back() = static_cast<std::byte>(number);
         places.push_back(std::move(place));
     }
@@ -54,7 +54,7 @@ net::ChildCommand::Setup setup_of(const std::vector<std::string>& words,
 {
     net::ChildCommand::Setup setup{.words = words,
                                    .has_own_network = true,
-                                   .has_own_group = number > 0, // the terminal is A's
+                                   .has_own_group = number > 0, // the terminal belongs to A
                                    .prepare = [end = places[number].end] { prepare(end); }};
     for (const bool is_v6 : {false, true}) {
         for (const Place& place : places) {

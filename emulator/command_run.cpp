@@ -105,7 +105,8 @@ void CommandRun::end_all(base::TimePoint now)
     if (!a_.exit_code()) {
         end_of_a_.pursue(knows ? 0 : stop_.number(), now);
     } else {
-        session_.expect_end(); // the interface to a process that serves the network goes with it
+        // The interface to the process that serves the network disappears with that process.
+        session_.expect_end();
         for (Watched& one : others_) one.end.pursue(SIGTERM, now);
     }
     next_look_ = now + 20ms;

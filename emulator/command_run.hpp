@@ -53,7 +53,7 @@ private:
     struct Watched {
         Other other;
         Ending end;
-        bool has_told = false; // that it has ended
+        bool has_told = false; // its end was reported
     };
 
     [[nodiscard]] bool is_over();

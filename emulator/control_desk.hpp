@@ -25,7 +25,7 @@ namespace hapnet::emulator {
 class ControlDesk {
 public:
     struct Setup {
-        std::optional<std::string> socket{}; // its path
+        std::optional<std::string> socket{}; // path of the Unix socket
         std::optional<std::string> files{};  // the folder whose files clients may name
         /// The emulation without its work and its folder, which the desk adds.
         Emulation emulation;
@@ -72,7 +72,7 @@ private:
     std::atomic<bool> wants_reload_{false};
     std::atomic<bool> has_begun_{false};
     std::atomic<bool> is_closing_{false};
-    std::thread thread_; // last: it uses the others
+    std::thread thread_; // last member: the thread uses the others
 };
 
 } // namespace hapnet::emulator

@@ -25,7 +25,7 @@ std::string verdict_in_words(const DirectionReport& report)
 {
     const auto reasons = report.reasons();
     if (reasons.empty()) return "valid";
-    constexpr std::uint64_t few = 100; // of fewer, p99 is the one that was latest
+    constexpr std::uint64_t few = 100; // with fewer datagrams p99 is the latest one
     const bool are_few = report.statistics->lateness.count() < few;
     const bool are_late = !report.statistics->is_punctual(report.budget);
     return fmt::format("NOT VALID: {}{}", fmt::join(reasons, "; "),

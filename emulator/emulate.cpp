@@ -250,7 +250,7 @@ private:
     void reload(Emulation& emulation)
     {
         Options options = run_.options;
-        options.replay.reset(); // stays as it was read
+        options.replay.reset(); // the replay stays as it was read
         const auto scenario = scenario_of(options, run_.paths.names());
         if (!scenario) {
             return status_.say(
@@ -309,12 +309,12 @@ private:
     unsigned rounds_since_look_ = 0;
     std::optional<base::TimePoint> end_;
     std::atomic<bool> has_told_of_files_{false};
-    bool is_stopped_ = false; // by a client
+    bool is_stopped_ = false; // stopped by a client of the control socket
     Run run_;
-    RunState state_; // as the desk has seen it last, or who reports in the end
+    RunState state_; // as last read by the control desk or the final report
     Results results_;
     Status status_;
-    std::optional<ControlDesk> desk_; // last: its thread uses the others
+    std::optional<ControlDesk> desk_; // last member: its thread uses the others
 };
 
 /// The signals that end it or, with a profile to read again, also SIGHUP: without one a closed

@@ -17,9 +17,9 @@ namespace hapnet::emulator {
 struct Endpoints {
     net::Endpoint listen_a;
     net::Endpoint listen_b;
-    std::optional<net::Endpoint> a; // nullopt: the first sender
+    std::optional<net::Endpoint> a; // nullopt: adopt the first sender
     std::optional<net::Endpoint> b;
-    std::optional<net::AddressSet> allowed_a{}; // of senders, where the first is taken
+    std::optional<net::AddressSet> allowed_a{}; // senders that may be adopted
     std::optional<net::AddressSet> allowed_b{};
 };
 

@@ -16,19 +16,19 @@ namespace hapnet::emulator {
 
 /// `hapnet-emulator verify RUN`
 struct VerifyOptions {
-    std::string run;                    // what --stats or --fates wrote, or a folder
+    std::string run;                    // file of --stats or --fates, or a folder
     std::optional<std::string> profile; // instead of the one in RUN
     std::optional<base::Seed> seed;     // instead of the one in the profile
     std::optional<base::Duration> spacing;
-    std::optional<std::string> link; // which one of a run with several
+    std::optional<std::string> link; // name of the link, for a run with several
     bool as_json = false;
 };
 
 /// `hapnet-emulator report RUN`
 struct ReportOptions {
-    std::string run;                  // what --stats wrote
+    std::string run;                  // file that --stats wrote
     std::optional<std::string> fates; // instead of those that RUN names
-    std::optional<std::string> link;  // which one of a run with several
+    std::optional<std::string> link;  // name of the link, for a run with several
     std::string out;                  // "-": stdout
 };
 
@@ -38,9 +38,9 @@ struct LearnOptions {
     std::string columns{};
     std::optional<base::Duration> spacing{}; // instead of the one in the files
     bool is_one_way = false;                 // a table has delays of one way
-    std::optional<std::string> trace{};      // where the measured values go, to be replayed
+    std::optional<std::string> trace{};      // file for the measured values, to be replayed
     bool as_json = false;
-    bool with_plots = false; // also where stderr is no terminal
+    bool with_plots = false; // draws plots even if stderr is no terminal
 };
 
 /// Adds the command to the program; after parse() the options hold what was typed.

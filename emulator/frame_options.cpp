@@ -101,7 +101,7 @@ base::Result<WorldProgram> parse_world_program(const std::string& text)
 
 base::Result<std::string> parse_interface(const std::string& text)
 {
-    constexpr std::size_t length_max = 15; // of Linux
+    constexpr std::size_t length_max = 15; // limit of Linux for interface names
     if (!text.empty() && text.size() <= length_max) return text;
     return base::fail(fmt::format("'{}' is not the name of an interface: it has 1 to {} characters",
                                   text, length_max));

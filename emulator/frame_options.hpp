@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 struct FrameOptions {
     bool all_frames = false;
     bool fix_checksums = false;
-    bool answers_too_big = false; // of a bridge
+    bool answers_too_big = false; // for a bridge: reply to senders of packets that `mtu` drops
 };
 
 /// The words behind the first `--`: commands with `---` in between.

@@ -75,14 +75,14 @@ private:
     Paths paths_;
     ports::Frames frames_;
     AnyRun run_;
-    RunState state_; // as the desk has seen it last, or who reports in the end
+    RunState state_; // as last read by the control desk or the final report
     Pacer pacer_;
     Results results_;
     std::optional<base::TimePoint> end_;
     std::vector<int> descriptors_;
     bool has_told_of_files_ = false;
     bool is_stopped_ = false;
-    std::optional<ControlDesk> desk_; // last: its thread uses the others
+    std::optional<ControlDesk> desk_; // last member: its thread uses the others
 };
 
 } // namespace hapnet::emulator

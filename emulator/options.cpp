@@ -170,7 +170,7 @@ cli::Take by_key(ConditionOptions& into)
 
 /// The differences among the commands that take conditions.
 struct ConditionsFor {
-    bool has_own_rate = false; // the command has a --rate of its own, which takes the condition too
+    bool has_own_rate = false; // the command's own --rate also takes the condition
     /// Conditions of one of several paths, as examples; "": there is only one.
     std::string_view of_one_path = "1-2.delay=20ms, wan.up.loss=5% or client.3.delay=80ms";
 };
@@ -325,7 +325,7 @@ cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
 /// The options of check and of predict.
 void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
-    constexpr std::uint64_t bytes_max = 65'507; // of UDP over IPv4
+    constexpr std::uint64_t bytes_max = 65'507; // largest UDP payload over IPv4
     conditions_from.profile_option = "";
     command.positional("PROFILE", "A profile: a file, or the name of a preset",
                        cli::into(conditions_from.profile));

@@ -37,7 +37,7 @@ constexpr auto names_of(base::Tag<Timing>) { return base::names("eco", "precise"
 struct TypedSetting {
     std::string key;
     std::string value;
-    std::string_view before_key = "--"; // what was typed before it
+    std::string_view before_key = "--"; // what was typed before the key
 };
 
 /// The sources of the conditions. Names are not looked up and files not opened yet.
@@ -45,8 +45,8 @@ struct ConditionOptions {
     std::optional<std::string> profile;            // a file, or the name of a preset
     std::string_view profile_option = "--profile"; // "": it was typed without one
     std::optional<std::string> netem;              // a sentence as tc-netem takes it
-    std::vector<TypedSetting> settings;            // they win over the profile
-    std::optional<base::Seed> seed;                // wins over the profile's
+    std::vector<TypedSetting> settings;            // override the profile
+    std::optional<base::Seed> seed;                // overrides the profile's seed
 };
 
 /// A run: `hapnet-emulator --listen-a ... --listen-b ...`
@@ -60,7 +60,7 @@ struct Options {
     Timing timing = Timing::precise;
     base::Duration budget = std::chrono::milliseconds{1};
     std::size_t in_flight_bytes = QueueLimits{}.bytes_max;
-    std::size_t threads = 1;                // that relay; of a run with several paths
+    std::size_t threads = 1;                // threads that relay, for a run with several paths
     std::optional<base::Duration> duration; // nullopt: until SIGINT or SIGTERM
     std::optional<std::string> stats;       // a file, or "-" for stdout
     std::optional<std::string> fates;
@@ -74,25 +74,25 @@ struct Options {
 /// A run with several links.
 struct LinkOptions {
     std::vector<TypedLink> links;
-    Options run; // its ends are not used
+    Options run; // the end addresses in it are not used
 };
 
 /// A run for any client of a server: `hapnet-emulator --listen ... --upstream HOST:PORT`
 struct UpstreamOptions {
     net::HostPort listen;
     net::HostPort upstream;
-    std::vector<net::AddressPattern> allowed; // none: loopback
+    std::vector<net::AddressPattern> allowed; // clients that are served; empty: loopback
     std::size_t clients_max = 64;
     base::Duration idle = std::chrono::seconds{60};
-    bool named_by_address = false; // the paths of clients
-    Options run;                   // its ends are not used
+    bool named_by_address = false; // a client's path is named by its address
+    Options run;                   // the end addresses in it are not used
 };
 
 /// `hapnet-emulator between ... -- COMMAND_A --- COMMAND_B --- COMMAND_C ...`
 struct BetweenOptions {
     FrameOptions frames;
     TypedCommands commands;
-    Options run; // its ends are not used
+    Options run; // the end addresses in it are not used
 };
 
 /// `hapnet-emulator exec ... -- COMMAND`
@@ -100,7 +100,7 @@ struct ExecOptions {
     FrameOptions frames;
     std::optional<WorldProgram> through; // nullopt: the first that works
     std::vector<std::string> command;
-    Options run; // its ends are not used
+    Options run; // the end addresses in it are not used
 };
 
 /// `hapnet-emulator bridge IF_A IF_B`
@@ -108,19 +108,19 @@ struct BridgeOptions {
     std::string a;
     std::string b;
     FrameOptions frames;
-    Options run; // its ends are not used
+    Options run; // the end addresses in it are not used
 };
 
 /// `hapnet-emulator check PROFILE`
 struct CheckOptions {
     ConditionOptions conditions;
-    tools::Stream stream{.packets = 100'000}; // its path: which one of several
+    tools::Stream stream{.packets = 100'000}; // its `path` selects one of several
 };
 
 /// `hapnet-emulator predict PROFILE --rate 1000`
 struct PredictOptions {
     ConditionOptions conditions;
-    tools::Stream stream{}; // its path: which one of several
+    tools::Stream stream{}; // its `path` selects one of several
     /// The most packets to send until mean and deviation have settled; nullopt: as many as stream
     /// says.
     std::optional<std::uint64_t> packets_max = 6'400'000;

@@ -34,7 +34,7 @@ struct Sums {
     std::uint64_t overflowed_down = 0;
     std::uint64_t unreachable_up = 0;
     std::uint64_t unreachable_down = 0;
-    std::size_t paths = 0; // at present
+    std::size_t paths = 0; // present number of paths
 
     [[nodiscard]] DirectionReport of_up(base::Duration budget) const
     {

@@ -20,7 +20,7 @@ struct Plan {
     const Options& options;
     const Scenario& scenario;
     Recorder::Files files;
-    std::vector<Paths::Setup> parts; // a thread each
+    std::vector<Paths::Setup> parts; // one for each thread
 };
 
 /// The plan of a run with this number of paths, which share the memory; each thread has its part of

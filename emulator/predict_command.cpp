@@ -21,7 +21,7 @@ namespace {
 
 /// The bytes by which a sealed message is longer than the plain one.
 constexpr std::size_t seal_bytes = 16;
-constexpr std::size_t payload_bytes_max = 65'507; // of UDP over IPv4
+constexpr std::size_t payload_bytes_max = 65'507; // largest UDP payload over IPv4
 
 double in_ms(base::Duration duration)
 {

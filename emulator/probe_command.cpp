@@ -140,7 +140,7 @@ private:
         encode(statistics_.next_question(last_), bytes_);
         const auto outcome = socket_.send(target_, bytes_);
         if (outcome == net::SendOutcome::sent || has_told_) return;
-        has_told_ = true; // once; it counts as lost
+        has_told_ = true; // told only once; the question counts as lost
         net::say("hapnet-emulator", outcome == net::SendOutcome::too_big
                                         ? "a question is too big for the way: lower --size"
                                         : "the system did not take a question; it counts as lost");
@@ -187,12 +187,12 @@ int answer_until_stopped(const net::HostPort& where, const net::StopSignal& stop
             const auto question = tools::decode_probe(datagram.bytes);
             auto answer = question ? answerer.answer(*question, datagram.at) : std::nullopt;
             if (!answer) continue;
-            // An answer is as long as the question and never longer: nobody gains by naming a
-            // victim as the sender.
+            // An answer is as long as the question and never longer: an attacker gains nothing by
+            // naming a victim as the sender.
             const auto room = std::span{bytes}.first(std::min(datagram.bytes.size(), bytes.size()));
             answer->answered = net::monotonic_now();
             encode(*answer, room);
-            std::ignore = socket.send(datagram.from, room); // lost, if it fails
+            std::ignore = socket.send(datagram.from, room); // an answer that cannot be sent is lost
         }
     }
     return 0;

@@ -33,7 +33,7 @@ constexpr const char* probe_exit_codes = R"(  0  an answer came; with --answer: 
 
 base::Result<net::HostPort> parse_target(const std::string& text)
 {
-    auto host = net::parse_listen_address(text); // a bare port is one of loopback here, too
+    auto host = net::parse_listen_address(text); // a port without an address: loopback
     if (host && host->port == 0) {
         return base::fail(fmt::format("'{}': nothing can be sent to port 0", text));
     }

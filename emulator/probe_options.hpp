@@ -18,12 +18,12 @@ namespace hapnet::emulator {
 
 /// `hapnet-emulator probe HOST:PORT`, and on the other side `hapnet-emulator probe --answer PORT`
 struct ProbeOptions {
-    std::optional<net::HostPort> target; // one of these two
-    std::optional<net::HostPort> answer; // where to listen
+    std::optional<net::HostPort> target; // either this or `answer` is set
+    std::optional<net::HostPort> answer; // address at which questions are answered
     base::Duration spacing = std::chrono::milliseconds{100};
     std::uint64_t count = tools::ProbeStatistics::questions_max;
-    std::size_t bytes = 136; // as a state of a session in the paper's scene (docs/formats/wire.md)
-    base::Duration wait = std::chrono::seconds{2}; // for answers, after the last question
+    std::size_t bytes = 136; // size of a state in the paper's scene (docs/formats/wire.md)
+    base::Duration wait = std::chrono::seconds{2}; // wait for answers after the last question
     std::optional<std::string> csv;
     bool as_json = false;
     bool is_quiet = false;

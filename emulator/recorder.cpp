@@ -103,7 +103,7 @@ void Recorder::Fates::write(Queue<FateEntry>& queue)
         }
     } catch (...) {
         loss.fail();
-        ways.clear(); // they are in no file
+        ways.clear(); // the rows of these ways are in no file
         waiting_bytes = 0;
     }
     loss.note();
@@ -302,7 +302,7 @@ Recorder::~Recorder()
 
 std::uint32_t Recorder::add_path(const std::string& name)
 {
-    const std::scoped_lock guard{paths_lock_}; // numbers and names in one order
+    const std::scoped_lock guard{paths_lock_}; // keeps numbers and names in the same order
     if (fates_ && fates_->columns != FateColumns{}) {
         const std::scoped_lock coming_guard{fates_->coming_lock};
         fates_->coming.push_back(
@@ -410,7 +410,7 @@ std::size_t Recorder::waiting() const
 /// The thread: writes what waits, and sleeps. Polling, so that the relay need not wake it.
 void Recorder::run()
 {
-    net::leave_real_time(); // that of the relay may be inherited; it is not for files
+    net::leave_real_time(); // may be inherited from the relay; not for files
     while (!stop_.load(std::memory_order_acquire)) {
         write();
         if (waiting() < batch_max) net::sleep_until(net::monotonic_now() + write_every);

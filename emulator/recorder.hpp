@@ -41,13 +41,13 @@ public:
     struct Files {
         std::optional<std::string> fates{};
         std::optional<std::string> capture{};
-        std::optional<base::Duration> kept{};            // of the capture's last packets, in memory
-        std::string keep_in{};                           // the folder for them
-        std::vector<CaptureNames> pairs{CaptureNames{}}; // of interfaces of the capture
-        FateColumns columns{};                           // of the fates
+        std::optional<base::Duration> kept{}; // time for which packets are held in memory
+        std::string keep_in{};                // folder for captures of held packets
+        std::vector<CaptureNames> pairs{CaptureNames{}}; // pairs of interfaces in the capture
+        FateColumns columns{};                           // columns of the file of fates
         /// The regimes of a path, up and down; null: there are none.
         std::function<NamesOfRegimes(const std::string& path)> regimes{};
-        std::size_t lanes = 1; // threads that hand over
+        std::size_t lanes = 1; // threads that hand over entries
     };
 
     class Lane;
@@ -101,9 +101,9 @@ private:
     /// The beginning of a packet; its bytes follow in chunks.
     // No defaults: Clang 14 needs them before the class that holds this one is complete.
     struct CaptureHeader {     // NOLINT(cppcoreguidelines-pro-type-member-init)
-        CapturedPacket packet; // its payload: only how many bytes
-        Fate fate;             // of one that arrived
-        base::Duration late;   // of one that left
+        CapturedPacket packet; // of its payload only the size is valid
+        Fate fate;             // for a packet that arrived
+        base::Duration late;   // for a packet that left
         bool is_copy;
     };
     struct CaptureChunk {
@@ -119,10 +119,10 @@ private:
 
     /// The amount that is missing in a file which could not be written to its end.
     struct Loss {
-        std::uint64_t taken = 0;            // out of the queues
-        std::uint64_t kept = 0;             // in the file
-        std::exception_ptr failure;         // null: all is well
-        std::atomic<std::uint64_t> lost{0}; // for other threads
+        std::uint64_t taken = 0;            // entries taken out of the queues
+        std::uint64_t kept = 0;             // entries written to the file
+        std::exception_ptr failure;         // null: no write has failed
+        std::atomic<std::uint64_t> lost{0}; // missing entries; other threads read it
 
         /// The exception that is handled, the first of the file.
         void fail()
@@ -151,11 +151,11 @@ private:
         void finish();
 
         struct Piece {
-            std::uint64_t begin = 0; // in the file without a name
+            std::uint64_t begin = 0; // offset in the unnamed file
             std::size_t bytes = 0;
         };
         struct Way {
-            std::string rows; // that are not written yet
+            std::string rows; // rows that are not written yet
             std::vector<Piece> pieces;
         };
         Way& way_of(const FateEntry& entry);
@@ -167,19 +167,19 @@ private:
 
         disk::ResultFile file;
         FateColumns columns;
-        disk::Descriptor aside; // the file without a name
+        disk::Descriptor aside; // the unnamed file, for all ways but the first
         std::uint64_t aside_bytes = 0;
-        std::size_t waiting_bytes = 0;   // in the rows of all ways but the first
+        std::size_t waiting_bytes = 0;   // rows in memory, of all ways but the first
         std::uint64_t waiting_first = 0; // rows of the first way that are not written yet
         std::vector<Way> ways{2};        // up and down of each path
-        std::vector<Cells> cells;        // of each path
+        std::vector<Cells> cells;        // one for each path
         std::mutex coming_lock;
-        std::vector<Cells> coming; // of paths that the writer has not seen yet
-        Loss loss;                 // of rows
+        std::vector<Cells> coming; // cells of paths that the writer has not seen yet
+        Loss loss;                 // counts rows
     };
     /// The chunks of a packet that have come through a lane so far.
     struct Incomplete {
-        std::optional<CaptureHeader> head; // of the packet whose chunks come
+        std::optional<CaptureHeader> head; // header of the packet whose chunks are coming
         std::vector<std::byte> payload;
     };
     struct Capture {
@@ -192,15 +192,15 @@ private:
         void save_ordered();
         void finish();
 
-        std::optional<disk::ResultFile> file; // of the whole run
-        std::string section;                  // that every capture begins with
+        std::optional<disk::ResultFile> file; // capture of the whole run
+        std::string section;                  // first bytes of every capture
         std::optional<base::Duration> span;
-        std::optional<base::RollingBytes> held; // of so much
+        std::optional<base::RollingBytes> held; // packets of the last `span`; nullopt: none
         net::Keeper keeper;
-        base::Duration since_1970; // of the time point 0
+        base::Duration since_1970; // time from 1970 to time point 0
         std::string bytes;
         std::string comment;
-        Loss loss; // of packets
+        Loss loss; // counts packets
     };
 
     void run();
@@ -216,7 +216,7 @@ private:
     std::uint32_t paths_ = 0;
     std::atomic<bool> stop_{false};
     std::atomic<bool> failed_{false};
-    std::thread thread_; // last: it uses the others
+    std::thread thread_; // last member: the thread uses the others
 };
 
 /// The way of one thread to the files: for that thread alone. Handing over neither allocates nor
@@ -246,7 +246,7 @@ private:
     std::optional<Queue<Part>> packets_;
     std::atomic<std::uint64_t> fates_lost_{0};
     std::atomic<std::uint64_t> packets_lost_{0};
-    Incomplete incomplete_; // for the thread that writes
+    Incomplete incomplete_; // used by the writing thread only
 };
 
 } // namespace hapnet::emulator

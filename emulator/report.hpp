@@ -32,7 +32,7 @@ struct AnyRun {
     AllPaths paths;
     const Recorder& recorder;
     net::RealTime real_time{};
-    base::Duration elapsed{}; // since the sockets were bound
+    base::Duration elapsed{}; // time since the sockets were bound
     /// Failures of things that a run cannot do without, such as a lost interface: a sentence each.
     /// A run with a failure is not valid.
     std::vector<std::string> failures{};

@@ -36,7 +36,7 @@ bool Results::finish(AnyRun& run, Recorder& recorder, const Reports& reports)
     try {
         if (stats_) stats_->commit(text);
         is_written = is_written || stats_.has_value();
-    } catch (const std::system_error&) { // they are worth more than their place
+    } catch (const std::system_error&) { // the statistics are then printed instead
         failure = std::current_exception();
     }
     try {

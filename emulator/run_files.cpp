@@ -67,7 +67,7 @@ base::Result<Fates> fates_of_path(const std::string& fates_path,
     if (!fates) return tl::unexpected{fates.error()};
     const auto own = fates->find(link.value_or(""));
     if (own != fates->end()) return std::move(own->second);
-    if (fates->empty()) return Fates{}; // of a run in which no datagram came
+    if (fates->empty()) return Fates{}; // a run in which no datagram came
     std::vector<std::string_view> names;
     for (const auto& [name, of] : *fates) names.push_back(name);
     const auto flow = parts_of(link.value_or("")).flow;

@@ -192,7 +192,7 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
     std::size_t wanted = 1;
     std::vector<std::uint64_t> present;
     const auto step = [&] {
-        const auto clients = port.clients(); // by their numbers, which only grow
+        const auto clients = port.clients(); // ordered by their numbers, which only grow
         std::size_t bytes = 0;
         for (const auto* client : clients) {
             if (state.count > 0 && client->number <= state.paths[state.count - 1].client) continue;

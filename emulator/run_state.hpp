@@ -32,23 +32,23 @@ struct WayState {
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
     std::uint64_t unreachable = 0;
-    std::vector<RegimeCourse> regimes{}; // until then
+    std::vector<RegimeCourse> regimes{}; // course of each regime until then
 };
 
 /// A path as it was at a moment, and how its conditions have changed until then.
 struct PathState {
     std::string name;
-    std::uint64_t client = 0; // its number; 0 where there are none
+    std::uint64_t client = 0; // number of its client; 0: not a client's path
     std::optional<net::Endpoint> end_a;
     std::optional<net::Endpoint> end_b;
     std::shared_ptr<const Path> conditions;
-    base::Duration elapsed{};             // of the run
-    std::vector<ConditionChange> changes; // the last
-    std::uint64_t changes_omitted = 0;    // before them, or for want of room
-    WayState up;                          // with flows, of the rest
+    base::Duration elapsed{};             // time since the run began
+    std::vector<ConditionChange> changes; // the most recent changes
+    std::uint64_t changes_omitted = 0;    // changes that are not in `changes`
+    WayState up;                          // if there are flows: the traffic of none of them
     WayState down;
-    std::vector<PathState> flows; // in the order of the profile
-    Statistics all_up;            // with flows, the sums of them and the rest
+    std::vector<PathState> flows; // states of the flows, in the profile's order
+    Statistics all_up;            // if there are flows: sums of them and the rest
     Statistics all_down;
     std::uint64_t unknown_fragments = 0; // see Classifier
 };
@@ -56,12 +56,12 @@ struct PathState {
 /// A run as it was at a moment: all that its reports are made from, apart from what never changes.
 /// Where there are many paths, each was looked at on its own, some hundred microseconds apart.
 struct RunState {
-    base::Duration elapsed{}; // since the sockets were bound
+    base::Duration elapsed{}; // time since the sockets were bound
     std::uint64_t generation = 1;
     bool is_over = false;
     std::vector<std::string> failures; // see AnyRun
-    std::size_t count = 0;             // of the paths that there are
-    std::vector<PathState> paths;      // as many at least: they are large, and used again
+    std::size_t count = 0;             // number of valid entries in `paths`
+    std::vector<PathState> paths;      // at least `count` entries: they are large and are reused
 
     /// The state of a server and its clients.
     struct Server {
@@ -71,10 +71,10 @@ struct RunState {
         std::uint64_t overflowed = 0;
         std::uint64_t unreachable = 0;
         ports::Upstream::Departed departed{};
-        std::shared_ptr<const Path> newcomers; // what holds for whoever comes
+        std::shared_ptr<const Path> newcomers; // conditions for clients to come
     };
     Server server{};
-    InterfaceReports interfaces{}; // of a run between interfaces
+    InterfaceReports interfaces{}; // only for a run between interfaces
 };
 
 // Looks at a run by steps of `work`, of which none copies more than some 100 KiB. `state` is one

@@ -20,8 +20,8 @@ struct Scenario {
     Profile profile; // with the seed and the settings of the command line
     base::Seed seed{1};
     std::shared_ptr<const FatesOfPaths> replay; // null: fates are drawn
-    std::vector<std::string> warnings;          // for a person, a sentence each
-    std::vector<base::Condition> checks;        // of the profile and of the command line
+    std::vector<std::string> warnings;          // one sentence each, for people
+    std::vector<base::Condition> checks;        // from the profile and the command line
 };
 
 /// The profile that --profile, --netem and single settings make. Paths in it are absolute. A

@@ -46,7 +46,7 @@ private:
     std::mutex lock_;
     net::TextQueue screen_{STDERR_FILENO};
     net::TerminalLine line_{STDERR_FILENO};
-    std::optional<base::TimePoint> next_; // nullopt: no terminal
+    std::optional<base::TimePoint> next_; // next update of the line; nullopt: no terminal
 };
 
 } // namespace hapnet::emulator

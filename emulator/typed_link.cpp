@@ -38,7 +38,7 @@ base::Result<TypedLink> parse_link(std::string_view text)
             const auto listen = net::parse_listen_address(parts[i]);
             if (!listen) return refuse(listen.error().message);
             (i == 0 ? link.listen_1 : link.listen_2) = *listen;
-        } else if (!parts[i].empty()) { // nothing: the first sender
+        } else if (!parts[i].empty()) { // an empty part means the first sender
             const auto end = net::parse_address_pattern(parts[i]);
             if (!end) return refuse(end.error().message);
             (i == 2 ? link.end_1 : link.end_2).push_back(*end);

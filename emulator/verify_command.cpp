@@ -65,7 +65,7 @@ base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, cons
     auto evidence = evidence_in(*fates, std::move(profile), request.link);
     if (!evidence) return evidence;
     const auto own = of_path(*statistics, request.link);
-    if (own.is_null()) return evidence; // of a client that was forgotten
+    if (own.is_null()) return evidence; // fates of a client that was forgotten
     if (const auto fine = ensure_whole(evidence->fates, own); !fine) {
         return tl::unexpected{fine.error()};
     }

@@ -25,7 +25,7 @@ struct WireEnd {
     // The address of the router to all other networks; "": there is none.
     std::string router{};
     std::string router_v6{};
-    std::optional<MacAddress> machine{}; // of eth0; nullopt: the kernel makes one up
+    std::optional<MacAddress> machine{}; // MAC of eth0; nullopt: the kernel draws one
 };
 
 /// Makes eth0 as the command is to find it: for net::ChildCommand::Setup::prepare.

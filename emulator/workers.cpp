@@ -80,7 +80,7 @@ private:
             if (is_woken_.load(std::memory_order_relaxed) && is_woken_.exchange(false)) {
                 wake_.clear();
             }
-            is_asked_.wait(true); // or the main thread might never find it between two rounds
+            is_asked_.wait(true); // lets the main thread in between two rounds
             const std::scoped_lock round{round_};
             part_.relay();
             deadline = part_.next_deadline();
@@ -90,12 +90,12 @@ private:
     Part part_;
     Alarm& alarm_;
     net::WakeEvent wake_;
-    std::mutex round_; // whoever has it may use what the part works with
+    std::mutex round_; // its holder may use what the part works with
     std::atomic<bool> is_asked_{false};
     std::atomic<bool> is_woken_{false};
     std::atomic<bool> is_over_{false};
-    std::exception_ptr failure_; // for join()
-    std::thread thread_;         // last: it uses the others
+    std::exception_ptr failure_; // error of the thread, for join()
+    std::thread thread_;         // last member: the thread uses the others
 };
 
 Workers::Workers(std::vector<Part> parts, Timing timing) : alarm_{std::make_unique<Alarm>()}

@@ -20,9 +20,9 @@ class Workers {
 public:
     /// The part of one thread.
     struct Part {
-        std::vector<int> descriptors; // to wait for
+        std::vector<int> descriptors; // descriptors to wait for
         std::function<std::optional<base::TimePoint>()> next_deadline;
-        std::function<void()> relay; // what has come and what is due
+        std::function<void()> relay; // relays what has come and what is due
     };
 
     /// Starts a thread for each part. They wait as Pacer does, with real-time scheduling where it

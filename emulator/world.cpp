@@ -105,7 +105,7 @@ std::string troubles_text(const std::vector<std::string>& troubles)
 
 struct Cure {
     std::string text;
-    int error = 0; // what it cures
+    int error = 0; // errno that it cures
 };
 
 /// Returns the cure for a person, as far as the reason is visible from here.
@@ -204,7 +204,7 @@ public:
         try {
             if (await_answer(interface, deadline)) return std::nullopt;
         } catch (const std::system_error&) {
-            return std::nullopt; // no frames of it: open_session() says why, and the cure
+            return std::nullopt; // its frames cannot be read: open_session() says why
         }
         process_.signal(SIGKILL);
         return "it answered nothing within 10 s";

@@ -71,7 +71,7 @@ struct Outlets {
 
 struct Endpoints {
     net::Endpoint listen;
-    std::vector<net::Endpoint> remotes; // as the others of the options
+    std::vector<net::Endpoint> remotes; // in the order of Options::others
     std::optional<net::Endpoint> plot{};
 };
 
@@ -251,8 +251,8 @@ monitor::Recorder::Setup recording_for(const Options& options, std::string_view 
     configuration["started_unix_s"] = net::wall_clock_seconds();
     // The session's number follows from it.
     configuration["nonce"] = settings.introduction.nonce;
-    configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // as in the scene
-    configuration["stiffness_max_n_per_m"] = settings.stiffness_max_n_per_m; // likewise
+    configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // in the scene's scale
+    configuration["stiffness_max_n_per_m"] = settings.stiffness_max_n_per_m; // in the scene's scale
     const device::Mount& mount = rig.mount();
     const glm::dvec3& offset = mount.offset.value;
     configuration["mount"] = {{"offset_m", {offset.x, offset.y, offset.z}}, {"scale", mount.scale}};
@@ -465,7 +465,7 @@ base::Result<int> run(Options options)
 {
     const auto endpoints = look_up(options);
     if (!endpoints) return tl::unexpected{endpoints.error()};
-    const net::StopSignal stop; // before any thread
+    const net::StopSignal stop; // must exist before any thread starts
     if (const auto loaded = load_code(options); !loaded) return tl::unexpected{loaded.error()};
     return play(options, *endpoints, stop);
 }

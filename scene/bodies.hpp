@@ -33,17 +33,17 @@ using Slot = std::uint32_t;
 /// The properties of a body that never change: the cold half.
 struct BodyProperties {
     BodyId id = 0;
-    glm::dvec3 half{0.02};    // half the edges of the box, or of that around it, m
-    double least_half = 0.02; // the smallest half edge of its parts, m
+    glm::dvec3 half{0.02};    // half the edges of the box, or of the box around the shape, m
+    double least_half = 0.02; // the smallest half edge of the body's parts, m
     double rounding = 0.0;    // how far a round body's surface is from its core, m
-    PartId parts_begin = 0;   // its further parts, if it has any: see Bodies::parts
+    PartId parts_begin = 0;   // first id of its further parts, if any: see Bodies::parts
     PartId parts_end = 0;
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
     glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes
     glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot rotate; with one free axis see `turning`
     double mass = 0.0;               // kg; 0: fixed
     Turning turning = Turning::locked;
-    bool is_kinematic = false; // fixed, but it moves: its momentum lane is its angular velocity
+    bool is_kinematic = false; // fixed, but it moves: angular_momentum holds its angular velocity
     bool is_isotropic = false; // the three moments of inertia are equal, as a cube's
     Material material{};
     double drag = 0.0; // N s/m
@@ -95,14 +95,14 @@ struct Bodies {
         }
     };
 
-    Lanes3 position;                         // of the centre, m
+    Lanes3 position;                         // centres of mass, m
     Lanes3 velocity;                         // m/s
     Lanes4 orientation;                      // unit
     Lanes3 angular_momentum;                 // kg m^2/s
     std::vector<double> inverse_inertia_max; // the largest inverse moment of inertia, 1/(kg m^2)
     std::vector<BodyProperties> properties;
-    std::vector<Slot> slot_of;   // by id, and of the further parts, by theirs
-    std::vector<BodyPart> parts; // by PartId; empty where each body has one, its own box
+    std::vector<Slot> slot_of;   // by PartId: a further part has the slot of its body
+    std::vector<BodyPart> parts; // by PartId; empty if every body has one part, its own box
 
     Slot awake = 0;
     Slot movable = 0;

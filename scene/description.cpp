@@ -20,7 +20,7 @@ public:
 
     void within(std::string_view what, double value, double least, double most)
     {
-        if (value >= least && value <= most) return; // not so for NaN
+        if (value >= least && value <= most) return; // false for NaN
         complain(fmt::format("{} is {}; it can be {} to {}", what, value, least, most));
     }
     void within(std::string_view what, const glm::dvec3& value, double least, double most)
@@ -49,7 +49,7 @@ private:
 
 bool is_unit(double square)
 {
-    constexpr double tolerance = 1e-6; // of what a person writes with seven digits
+    constexpr double tolerance = 1e-6; // a person may write no more than seven digits
     return std::abs(square - 1.0) <= tolerance;
 }
 
@@ -309,7 +309,7 @@ double mass_of(const BodyDescription& body, double density)
         const double radius = rounding_of(solid);
         const glm::dvec3& half = solid.half;
         if (radius == 0.0) return density * 8.0 * half.x * half.y * half.z;
-        const double straight = half.x + half.y + half.z - 3.0 * radius; // half of it
+        const double straight = half.x + half.y + half.z - 3.0 * radius; // half its length
         return density * base::two_pi * radius * radius * (straight + 2.0 / 3.0 * radius);
     };
     double sum = mass(body);

@@ -69,7 +69,7 @@ struct Sway {
 /// surface is more than the first share of the force across it, then slides against the second.
 struct HandFriction {
     double sticking = 0.0;
-    double sliding = 0.0; // at most the above
+    double sliding = 0.0; // at most `sticking`
 
     [[nodiscard]] bool is_rough() const { return sticking > 0.0; }
     friend bool operator==(const HandFriction&, const HandFriction&) = default;
@@ -98,8 +98,8 @@ struct Feel {
 struct PartDescription {
     Shape shape = Shape::box;
     glm::dvec3 half{0.02};
-    base::Position position{};                  // of its centre, from the first part's
-    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from its frame to the first part's
+    base::Position position{};                  // centre of the part, from the first part's centre
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the part's frame to the first part's
 
     friend bool operator==(const PartDescription&, const PartDescription&) = default;
 };
@@ -115,7 +115,7 @@ struct BodyDescription {
     bool kinematic = false;
     Sway sway{};
     Shape shape = Shape::box;
-    glm::dvec3 half{0.02}; // half the edges of the box, or of that around it, metres
+    glm::dvec3 half{0.02}; // half the edges of the box, or of the box around the shape, metres
     base::Position position{};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // unit, from the body's frame to the world's
     base::Velocity velocity{};
@@ -125,7 +125,7 @@ struct BodyDescription {
     LockedAxes locked{};
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
-    Feel feel{};                // of every hand on it; it counts before a hand's own
+    Feel feel{};                // for every hand on the body; takes precedence over a hand's own
     /// The body's frame, and so `position` and `orientation`, are those of the first part, which
     /// `shape` and `half` describe. A world's are of the centre of mass: see frame_of_mass().
     std::vector<PartDescription> parts{};
@@ -137,9 +137,9 @@ struct BodyDescription {
 struct PlaneDescription {
     std::string name;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
-    double offset_m = 0.0;            // of its points p: dot(normal, p) = offset
+    double offset_m = 0.0;            // dot(normal, p) of every point p of the plane
     Material material{};
-    bool felt = false; // by hands, through their own spring and damper
+    bool felt = false; // hands feel the plane, through their own spring and damper
 
     friend bool operator==(const PlaneDescription&, const PlaneDescription&) = default;
 };
@@ -167,15 +167,15 @@ struct HandDescription {
     double radius_m = 0.005;
     double stiffness_n_per_m = 500.0;
     double damping_ns_per_m = 2.0;
-    double force_max_n = 3.3;    // of one contact; infinity: not limited
+    double force_max_n = 3.3;    // greatest force of one contact; infinity: not limited
     double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
     /// Coulomb's coefficient, 0..friction_max, of a session alone: the scene reads, hashes and
     /// prints it, and the peer applies it from outside (peer::FingerFriction). The hands of the
     /// scene itself have the two below.
     double friction = 0.0;
-    std::uint32_t count = 2;                  // 0..hips_max
+    std::uint32_t count = 2;                  // 0..hands_max
     double static_friction = 0.0;             // while a hand sticks, 0..friction_max
-    std::optional<double> dynamic_friction{}; // while it slides; unset: the same
+    std::optional<double> dynamic_friction{}; // while a hand slides; unset: `static_friction`
 
     friend bool operator==(const HandDescription&, const HandDescription&) = default;
 };
@@ -188,7 +188,7 @@ struct Description {
     std::vector<PlaneDescription> planes{};
     HandDescription hands{};
     glm::dvec3 gravity{0.0, -9.81, 0.0}; // m/s^2
-    std::vector<Feel> own_hands{};       // of the first hands, each its own
+    std::vector<Feel> own_hands{};       // [i] is for hand i; there may be fewer than hands
     std::vector<FieldDescription> fields{};
 
     friend bool operator==(const Description&, const Description&) = default;
@@ -198,7 +198,7 @@ inline constexpr std::uint32_t hands_max = 8;
 inline constexpr std::uint32_t bodies_max = 100'000;
 inline constexpr std::uint32_t planes_max = 64;
 inline constexpr std::uint32_t fields_max = 64;
-inline constexpr std::uint32_t parts_max = 15; // of a body, beside its first
+inline constexpr std::uint32_t parts_max = 15; // parts of a body, without the first
 
 // The ranges of a description and of inputs. Values beyond them are refused; within them nothing
 // overflows.

@@ -107,7 +107,7 @@ private:
 struct Whole {
     glm::dvec3 centre{0.0};
     glm::dmat3 axes{1.0};
-    glm::dvec3 inertia{0.0}; // about them
+    glm::dvec3 inertia{0.0}; // about these axes
 };
 
 Whole whole_of(const std::vector<Solid>& solids)

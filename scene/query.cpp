@@ -100,7 +100,7 @@ public:
         contact.normal_impulse = impulse;
         if (set_place(contact, collide(its, box, touch, memory), touch)) {
             list_.add(contact);
-        } else if (impulse > 0.0) { // they have parted since
+        } else if (impulse > 0.0) { // the two have parted since the tick
             const Separation apart = separation(box, its);
             contact.at.value = 0.5 * (apart.on_first + apart.on_second);
             contact.normal = apart.direction;

@@ -29,9 +29,9 @@ struct Contact {
     BodyId body = 0;
     Thing other;
     base::Position at{};         // the middle of the points that touch
-    glm::dvec3 normal{0.0};      // unit, from the other one to the body
-    double separation = 0.0;     // m, of the deepest point; < 0: overlap
-    double normal_impulse = 0.0; // N s, on the body, of the last tick; of a sleeper, of each tick
+    glm::dvec3 normal{0.0};      // unit, from `other` to `body`
+    double separation = 0.0;     // m, at the deepest point; < 0: overlap
+    double normal_impulse = 0.0; // N s, on `body` in the last tick; on a sleeper in each tick
 };
 
 /// Lists the contacts of all bodies, each once, with the body of the lower id as `body`: by the
@@ -51,7 +51,7 @@ struct RayHit {
     Thing what;
     double distance_m = 0.0;
     base::Position at{};
-    glm::dvec3 normal{0.0}; // of the surface; against the ray where it began inside
+    glm::dvec3 normal{0.0}; // normal of the surface; against the ray if it began inside
 };
 /// The first body or plane that a ray meets; of several at the same distance the first in the
 /// description, bodies before planes. Inside of one it begins at distance 0. nullopt also for a ray
@@ -65,7 +65,7 @@ struct RayHit {
 
 struct NearestBody {
     BodyId body = 0;
-    Separation separation{}; // of the point and that body
+    Separation separation{}; // between the point and that body
 };
 /// The body with the least separation from a point; nullopt in a scene without bodies.
 [[nodiscard]] std::optional<NearestBody> nearest_body(const World& world,

@@ -22,18 +22,18 @@ constexpr std::size_t scan_max = 64;
 struct Census {
     std::size_t movable = 0;
     std::size_t fixed = 0;
-    std::size_t kinematic = 0;   // of those
+    std::size_t kinematic = 0;   // number of the fixed bodies that are kinematic
     std::size_t round = 0;       // spheres and capsules
     std::size_t own_feel = 0;    // bodies and hands with a stiffness or damping of their own
-    std::size_t felt_planes = 0; // that hands feel
-    std::size_t turning = 0;     // movable
+    std::size_t felt_planes = 0; // planes that hands feel
+    std::size_t turning = 0;     // movable bodies that can rotate
     std::size_t skew = 0;        // boxes and planes not parallel to the axes
     std::size_t compound = 0;    // bodies of several parts
     std::size_t bouncing = 0;    // bodies and planes with restitution
     std::size_t rough = 0;       // movable bodies with friction
     std::size_t rough_other = 0; // fixed bodies and planes with friction
     std::size_t dragged = 0;     // movable bodies with viscous friction
-    bool has_flush = false;      // fixed boxes that lie flush
+    bool has_flush = false;      // some fixed boxes lie flush
 };
 
 bool is_parallel(const glm::dquat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }

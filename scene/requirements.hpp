@@ -13,8 +13,8 @@ namespace hapnet::scene {
 
 /// A feature that a scene may require of its stepper.
 enum class Feature : std::uint8_t {
-    contact,       // anything can touch anything at all
-    hands,         // hands
+    contact, // anything can touch anything at all
+    hands,
     skew,          // a box or a plane that is not parallel to the axes
     rotation,      // a movable body that can rotate
     friction,      // Coulomb friction
@@ -64,10 +64,10 @@ private:
 enum class StepperKind : std::uint8_t {
     flight,  // nothing touches anything: exact parabolas and rotations
     sliding, // one box that cannot rotate among others parallel to it: exact, event by event
-    sliding_coulomb, // ... with dry friction
+    sliding_coulomb, // as `sliding`, with dry friction
     lone,            // one movable body that can rotate
     few,             // movable bodies that touch each other; each is compared with each
-    many,            // ... found through a grid
+    many,            // as `few`, but pairs are found through a grid
 };
 inline constexpr std::size_t stepper_kinds = 6;
 

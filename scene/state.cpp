@@ -71,7 +71,7 @@ HandFeels::HandFeels(const Description& description)
         }
         return found->second;
     };
-    kind_of({}); // the first: of planes, and of all bodies without a feel of their own
+    kind_of({}); // the first kind: for planes, and for all bodies without a feel of their own
     for (const BodyDescription& body : bodies) kind_of_.push_back(kind_of(body.feel));
 }
 

@@ -28,11 +28,11 @@ struct HandInput {
 struct HandTouch {
     bool touching = false; // pushed or held a movable body
     bool holding = false;
-    BodyId body = 0;                // the movable one that it touched
-    base::Force on_body{};          // on the movable body: the mean over the tick
-    base::Force on_hand{};          // by everything it touched: the mean over the tick
-    double depth_m = 0.0;           // at the start of the tick, of the deepest contact
-    base::Force on_hand_at_start{}; // the spring and damper at the start of the tick
+    BodyId body = 0;                // the movable body that it touched
+    base::Force on_body{};          // mean force on that body over the tick
+    base::Force on_hand{};          // mean force on the hand over the tick, by all that it touched
+    double depth_m = 0.0;           // depth of the deepest contact at the start of the tick
+    base::Force on_hand_at_start{}; // force of springs and dampers at the start of the tick
 };
 
 /// The springs of each hand on each body, where they are not all equal; otherwise empty.
@@ -68,7 +68,7 @@ public:
 private:
     void set_friction(const Description& description);
 
-    std::vector<std::uint32_t> kind_of_{}; // by body: where the hands on bodies like it begin
+    std::vector<std::uint32_t> kind_of_{}; // by body: index in kinds_ of the first hand
     std::vector<HandDescription> kinds_{};
     std::vector<HandFriction> friction_of_hands_{}; // empty: no hand can stick to anything
     std::vector<HandFriction> friction_of_bodies_{};
@@ -80,10 +80,10 @@ private:
 
 /// A hand's rubbing in the last tick, where hands have friction.
 struct HandSlip {
-    bool sticks = false;    // to something, at the end of the tick
-    bool slides = false;    // over something, likewise
-    double stretch_m = 0.0; // at the start: of the hand over the place where it sticks
-    double stored_j = 0.0;  // at the start, in the springs along the surfaces
+    bool sticks = false;    // the hand sticks to something at the end of the tick
+    bool slides = false;    // the hand slides over something at the end of the tick
+    double stretch_m = 0.0; // at the start: how far the hand is from the place where it sticks
+    double stored_j = 0.0;  // at the start: energy in the springs along the surfaces
 };
 
 /// Values that hold from a world's first tick to its last.
@@ -101,9 +101,9 @@ struct WorldConfig {
 /// The further motion of a kinematic body.
 struct KinematicScript {
     enum class Kind : std::uint8_t {
-        steady, // as it moves
-        sways,  // about the target's position
-        target, // where it is at the end of the next tick, then steadily on
+        steady, // keeps its present velocity and spin
+        sways,  // moves to and fro from the position of `target`
+        target, // reaches `target` at the end of the next tick, then goes on steadily
     };
     Kind kind = Kind::steady;
     Sway sway{};
@@ -113,15 +113,17 @@ struct KinematicScript {
 /// Counts of interventions since freeze(), where the plain algorithm would have broken a law.
 struct Interventions {
     // Guards: motion was thrown away.
-    std::uint64_t islands_limited = 0; // an island lost a tenth of its impulses or more
-    std::uint64_t paths_cut = 0;       // a body lost the rest of its way in the tick
-    std::uint64_t budgets_spent = 0;   // the work of a tick ended before it was done
+    /// An island lost a tenth of its velocities or more; or the box of OneBoxStepper lost a share
+    /// of its impulses without a hand on it.
+    std::uint64_t islands_limited = 0;
+    std::uint64_t paths_cut = 0;     // a body lost the rest of its way in the tick
+    std::uint64_t budgets_spent = 0; // the work of a tick ended before it was done
     // Mechanisms: nothing was lost but what a law forbids.
     std::uint64_t hands_braked = 0;     // a hand's impulse was scaled down so that it stays passive
-    std::uint64_t impulses_trimmed = 0; // ... less, or at most a hundredth of its velocities
+    std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its velocities
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
     std::uint64_t sweeps_continued = 0; // a body went on after its first touch within the tick
-    std::uint64_t clusters_stuck = 0;   // two that touched too often in a tick had an inelastic hit
+    std::uint64_t clusters_stuck = 0;   // bodies that touched too often had an inelastic hit
     std::uint64_t islands_anew = 0;     // an island was solved again, without last tick's impulses
 
     [[nodiscard]] std::uint64_t guards() const
@@ -151,14 +153,14 @@ struct WorldState {
     std::array<HandInput, hands_max> hands{};
     std::array<HandTouch, hands_max> touches{};
     std::vector<glm::dvec3> pushes{};       // newtons by id, held for the next tick, then cleared
-    std::vector<glm::dvec3> torques{};      // newton metres by id, about the centre, likewise
+    std::vector<glm::dvec3> torques{};      // N m by id, about the centre; held like pushes
     Bounded<BodyId> pushed{};               // the bodies with a push or a torque, each once
-    Bounded<BodyId> twisted{};              // those of them with a torque, each once
-    std::vector<std::uint8_t> is_pushed{};  // by id: 1 in `pushed`, 2 in `twisted`
-    std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in the order of their slots
+    Bounded<BodyId> twisted{};              // the bodies with a torque, each once
+    std::vector<std::uint8_t> is_pushed{};  // by id, as bits: 1 in `pushed`, 2 in `twisted`
+    std::vector<KinematicScript> scripts{}; // of the kinematic bodies, in slot order
     std::vector<HandSlip> slips{};          // by hand; empty where no hand has friction
     std::uint64_t ticks = 0;
-    TickCost tick_cost{}; // of the last tick
+    TickCost tick_cost{}; // cost of the last tick
     Interventions interventions{};
 };
 
@@ -168,7 +170,7 @@ struct Scales {
     double tick = 1e-3;  // s
     double size = 0.02;  // m: the smallest half edge of a movable body
     double fall = 0.0;   // m/s: what gravity adds in a tick
-    double speed = 1e-2; // m/s: the above, or what crosses a millionth of the size in a tick
+    double speed = 1e-2; // m/s: `fall`, or a millionth of `size` per tick if that is more
     double rate = 1e3;   // 1/s: ticks per second
 };
 [[nodiscard]] Scales scales_of(const WorldConfig& config, const Bodies& bodies);

@@ -10,13 +10,13 @@ namespace hapnet::scene {
 /// scene may take; a tick counts how many it took. The rest of a tick is a few loops over the awake
 /// bodies and the hands.
 struct TickCost {
-    std::uint64_t pairs = 0;    // of two bodies, or of a body and a plane: looked at closely
-    std::uint64_t contacts = 0; // prepared for the solver
-    std::uint64_t visits = 0;   // of the solver to one contact: velocities and overlaps
-    std::uint64_t spring_rows =
-        0;                    // rows of hands' springs on bodies that turn, solved step by step
-    std::uint64_t events = 0; // of the one box within the tick
-    std::uint64_t looks = 0;  // at two bodies one of which goes far within the tick
+    std::uint64_t pairs = 0;    // pairs of bodies, or of a body and a plane, looked at closely
+    std::uint64_t contacts = 0; // contacts prepared for the solver
+    std::uint64_t visits = 0;   // visits of the solver to contacts, for velocities and overlaps
+    /// Rows of hands' springs that the midpoint rule solved, counted in each Newton step.
+    std::uint64_t spring_rows = 0;
+    std::uint64_t events = 0; // events of OneBoxStepper within the tick
+    std::uint64_t looks = 0;  // looks at two bodies, one of which goes far within the tick
 
     /// True if no count is above that of `bound`.
     [[nodiscard]] bool is_within(const TickCost& bound) const

@@ -371,7 +371,7 @@ inline void World::step()
 void World::push_by_fields()
 {
     Bodies& bodies = state_.bodies;
-    if (kind_ == StepperKind::flight) state_.touches.fill({}); // it knows no hands
+    if (kind_ == StepperKind::flight) state_.touches.fill({}); // this stepper knows no hands
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
         glm::dvec3 force{0.0};
         for (const FieldDescription& field : config_.fields)

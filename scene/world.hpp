@@ -24,8 +24,8 @@ inline constexpr base::Duration tick_max{std::chrono::milliseconds{100}};
 struct FreezeOptions {
     base::Duration tick{std::chrono::milliseconds{1}}; // tick_min..tick_max
     bool sleeping = true;                              // bodies at rest fall asleep
-    std::optional<StepperKind>
-        stepper{}; // instead of the cheapest; it has to do what the scene needs
+    /// A stepper to use instead of the cheapest one. It must support all that the scene requires.
+    std::optional<StepperKind> stepper{};
 };
 
 /// Why an input was not taken; the world is as it was.
@@ -100,7 +100,7 @@ public:
     void tick();
 
     [[nodiscard]] BodyState body(BodyId id) const;
-    /// body(id)'s, without the rest.
+    /// The position of body(id), without the rest of its state.
     [[nodiscard]] base::Position position(BodyId id) const
     {
         return {state_.bodies.position.at(slot_of(id))};

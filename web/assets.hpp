@@ -12,7 +12,7 @@ namespace hapnet::web {
 struct Asset {
     std::string_view name; // "app.js", "paint/arrows.js"
     std::string_view bytes;
-    std::string_view packed; // by gzip; empty: that would be no smaller
+    std::string_view packed; // compressed by gzip; empty: gzip does not make it smaller
 };
 
 /// All files of the page. The build generates the file that defines them.

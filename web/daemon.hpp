@@ -55,7 +55,7 @@ private:
     std::string path_;
     Handlers handlers_;
     std::deque<Asked> asked_;
-    bool is_told_ = false; // on_attached()
+    bool is_told_ = false; // on_attached() was called, on_lost() not yet
     Wire watching_;
     Wire asking_;
 };

@@ -51,7 +51,7 @@ void Daemons::tick(base::TimePoint now)
     for (const auto& peer : peers_) {
         if (peer->daemon->is_attached()) ask_peer_to_show(peer);
     }
-    if (is_virtual()) ask_emulator_to_show(); // how far it is
+    if (is_virtual()) ask_emulator_to_show(); // tells how far virtual time has come
 }
 
 void Daemons::know_generation(std::uint64_t generation)
@@ -98,7 +98,7 @@ void Daemons::add_peer(const std::string& path)
     auto peer = std::make_shared<Peer>();
     peer->state.socket = path;
     peer->place = peers_.size();
-    const std::weak_ptr<Peer> weak = peer; // it has the daemon that has these handlers
+    const std::weak_ptr<Peer> weak = peer; // weak: the peer owns the daemon and so its handlers
     peer->daemon = std::make_unique<Daemon>(
         io_, path, "16ms",
         Daemon::Handlers{.on_attached =

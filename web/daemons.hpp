@@ -24,9 +24,9 @@ class Daemons {
 public:
     using Json = nlohmann::ordered_json;
     struct Handlers {
-        std::function<void()> on_news;        // of what is known of them
-        std::function<void(Event)> on_event;  // without its moment
-        std::function<void()> on_other_peers; // live figures begin anew
+        std::function<void()> on_news;        // the known state of a daemon has changed
+        std::function<void(Event)> on_event;  // an event whose moment is not set
+        std::function<void()> on_other_peers; // other peers: live figures begin again
     };
 
     Daemons(boost::asio::io_context& io, Handlers handlers)
@@ -67,7 +67,7 @@ private:
     struct Peer {
         std::unique_ptr<Daemon> daemon;
         PeerState state;
-        std::size_t place = 0; // in the feed
+        std::size_t place = 0; // index in the feed
     };
 
     void set_emulator(const std::string& path);
@@ -79,7 +79,7 @@ private:
     void ask_for_scene(const std::shared_ptr<Peer>& peer);
     void order_peers();
     void note(const std::string& kind, const std::string& text);
-    [[nodiscard]] const Peer* with_hand() const; // null: none
+    [[nodiscard]] const Peer* with_hand() const; // null: no peer has a hand
     [[nodiscard]] std::string name_of(std::size_t place) const
     {
         return name_of_peer(peer_states(), place);
@@ -90,12 +90,12 @@ private:
     Feed feed_;
     std::unique_ptr<Daemon> emulator_;
     EmulatorState emulator_state_;
-    std::uint64_t own_generation_ = 0; // that a request of a page has made
+    std::uint64_t own_generation_ = 0; // newest one that a page's request has made
     std::uint64_t shown_generation_ = 0;
     bool is_showing_ = false;
-    bool finds_lab_peers_ = false;             // once the lab says how many there are
+    bool finds_lab_peers_ = false;             // peers are added once the lab tells how many
     std::vector<std::shared_ptr<Peer>> peers_; // in the order of the feed
-    std::optional<base::TimePoint> next_look_; // at what daemons say of themselves
+    std::optional<base::TimePoint> next_look_; // next time to ask the daemons for their state
 };
 
 } // namespace hapnet::web

@@ -34,7 +34,7 @@ private:
 
     HandHold hold_;
     bool is_held_ = false;
-    bool has_told_ = false; // the peer of a place, and not yet to let the hand go
+    bool has_told_ = false; // the peer was told a place, but no release since then
     /// Requests without an answer. Each holds a copy, and a daemon that goes takes its copies
     /// along.
     std::shared_ptr<char> asked_ = std::make_shared<char>();

@@ -112,7 +112,7 @@ void Hub::note(Event event)
 
 void Hub::tell_all(const Viewer::Text& text)
 {
-    const auto viewers = *viewers_; // telling one may make it leave
+    const auto viewers = *viewers_; // a copy: a viewer may leave while it is told
     for (const auto& [id, viewer] : viewers) viewer.tell(text);
 }
 

@@ -119,13 +119,13 @@ private:
     std::unique_ptr<Stage> stage_;
     std::shared_ptr<Viewers> viewers_ = std::make_shared<Viewers>();
     std::uint64_t next_viewer_ = 1;
-    bool has_news_ = true; // of the state
+    bool has_news_ = true; // the state has changed since it was sent
     std::optional<base::TimePoint> next_state_;
     std::optional<Results> results_;
     Saving saving_;
-    std::uint64_t moves_told_ = 0; // of the feed, in virtual time
+    std::uint64_t moves_told_ = 0; // feed.moves() as last told; for virtual time
     double at_s_told_ = 0.0;
-    int saved_ = 0; // for names
+    int saved_ = 0; // numbers the names of what is saved
     HandDesk hand_;
     MetricsPage metrics_;
 };

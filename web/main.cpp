@@ -41,7 +41,7 @@ using asio::ip::tcp;
 
 constexpr std::string_view program_name = "hapnet-web";
 constexpr int ports_tried = 20;
-constexpr int niceness = 10; // the loops come first
+constexpr int niceness = 10; // the loops of the daemons come first
 constexpr std::size_t token_digits_least = 32;
 constexpr std::size_t token_file_bytes_max = 4096;
 
@@ -196,12 +196,12 @@ private:
     const net::StopSignal& stop_;
     net::ServiceManager& manager_;
     asio::posix::stream_descriptor signal_;
-    base::Duration late_{}; // made up for in the next beat
+    base::Duration late_{}; // delay of the last beat, subtracted from the next
 };
 
 base::Result<int> run(const Options& options)
 {
-    const net::StopSignal stop; // before any thread
+    const net::StopSignal stop; // made before any thread starts
     net::ServiceManager manager;
     std::signal(SIGPIPE, SIG_IGN);
     const auto token = token_of(options);
@@ -211,7 +211,7 @@ base::Result<int> run(const Options& options)
     const std::uint16_t port = acceptor.local_endpoint().port();
     Hub hub{io};
     if (options.stage) hub.offer(stage_setup(options), !options.keeps_stopped, options.is_virtual);
-    setpriority(PRIO_PROCESS, 0, niceness); // of this thread: children begin in another
+    setpriority(PRIO_PROCESS, 0, niceness); // this thread only: another one starts children
     if (!options.lab.empty()) {
         hub.attach_lab(options.lab);
     } else if (!options.stage) {

@@ -33,7 +33,7 @@ void MetricsPage::answer(Daemon* emulator, const std::vector<Daemon*>& peers,
     std::vector<Daemon*> daemons = peers;
     if (emulator != nullptr) daemons.insert(daemons.begin(), emulator);
     struct Gathered {
-        std::vector<Json> replies; // in the order of the daemons, however they come
+        std::vector<Json> replies; // in the order of the daemons, not of arrival
         std::size_t awaited = 1;
     };
     auto gathered = std::make_shared<Gathered>();

@@ -16,14 +16,14 @@ namespace hapnet::web {
 struct Options {
     std::string emulator;           // a control socket; empty: none
     std::vector<std::string> peers; // control sockets
-    std::string lab;                // of a session in virtual time; empty: none
+    std::string lab;                // control socket of a virtual-time session; empty: none
     bool stage = false;             // may start daemons of its own
-    std::string out;                // of the stage: where results go
+    std::string out;                // folder for the results of the stage
     std::string listen;             // an address without a port; empty: loopback
     std::uint16_t port = 8460;
     bool is_port_chosen = false;
-    std::vector<std::string> hosts; // other names under which it is asked
-    std::string token_file;         // empty: a token of its own
+    std::vector<std::string> hosts; // further host names that requests may use
+    std::string token_file;         // empty: it makes a token of its own
     std::string url_file;           // empty: none
     bool is_virtual = false;        // --virtual: the stage begins in virtual time
     bool keeps_stopped = false;     // --stopped: the stage waits for its button

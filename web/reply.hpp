@@ -14,7 +14,7 @@ struct Reply {
     int status = 200;
     std::string body;
     std::string type = "application/json";
-    std::string file{};        // served instead of the body
+    std::string file{};        // path of a file to send instead of the body
     std::string attached_as{}; // the name that a browser is to save it under
 };
 using OnReply = std::function<void(Reply)>;

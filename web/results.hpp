@@ -34,7 +34,7 @@ private:
     };
 
     std::string out_;
-    std::vector<File> files_; // appended to only
+    std::vector<File> files_; // never shortened or reordered
 };
 
 } // namespace hapnet::web

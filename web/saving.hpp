@@ -32,11 +32,11 @@ public:
 
 private:
     struct Pending {
-        std::size_t awaited = 0; // replies
+        std::size_t awaited = 0; // replies that have not come yet
         std::vector<std::string> files;
-        std::string refused; // why one of them saves nothing
+        std::string refused; // why a daemon saves nothing
         OnSaved on_saved;
-        std::optional<base::TimePoint> until; // for the files
+        std::optional<base::TimePoint> until; // end of the wait for the files
     };
     std::shared_ptr<Pending> pending_;
 };

@@ -24,9 +24,9 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using namespace std::chrono_literals;
 
-constexpr auto idle_max = 60s; // until the next request begins
+constexpr auto idle_max = 60s; // longest wait for the next request
 constexpr auto sending_max = 5s;
-constexpr auto answering_max = 30s; // a record has megabytes
+constexpr auto answering_max = 30s; // long enough for a record of some megabytes
 
 /// Sets the headers of every answer.
 template <typename Message>
@@ -53,7 +53,7 @@ struct Server::State {
     Visitors visitors{limits.connections};
     bool is_over = false;
     base::TimePoint second{};
-    int posts = 0; // in it
+    int posts = 0; // POST requests since `second`
 
     void accept(asio::ip::tcp::acceptor& acceptor, const std::shared_ptr<State>& self);
     [[nodiscard]] bool admits_post();
@@ -178,7 +178,7 @@ void Connection::on_request()
 void Connection::upgrade()
 {
     if (state_->parts.hub.is_full()) return refuse({429, "too many pages look already"});
-    visit_.reset(); // it goes on as another visitor
+    visit_.reset(); // the WebSocket will be another visitor
     view_live(stream_.release_socket(), request_,
               {state_->parts.hub, state_->parts.gate, state_->visitors});
 }

@@ -21,7 +21,7 @@ class Server {
 public:
     struct Limits {
         RequestLimits request{};
-        std::size_t connections = 32; // but for pages that have shown the token
+        std::size_t connections = 32; // limit; pages that have shown the token do not count
         int posts_per_second = 40;
     };
 

@@ -51,14 +51,14 @@ struct Image {
     char* const* environment;
     int lifeline;
     int log;
-    int output; // -1: to the log
+    int output; // -1: stdout goes to the log
 };
 
 /// Calls only what is permitted between fork() and exec() of a program with threads.
 [[noreturn]] void become(const Image& image)
 {
     setpgid(0, 0);
-    fcntl(image.lifeline, F_SETFD, 0); // inherited, in this process alone
+    fcntl(image.lifeline, F_SETFD, 0); // only this child's program inherits it
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -26,7 +26,7 @@ struct Command {
 struct Child {
     pid_t pid = -1;
     int ended = -1;  // a descriptor that is readable when it has ended
-    int output = -1; // its stdout, if that was wanted
+    int output = -1; // its stdout; -1: not wanted
 };
 
 /// Starts processes from a thread of its own, which keeps the priority that the program was started
@@ -51,7 +51,7 @@ private:
     std::deque<std::packaged_task<Child()>> tasks_;
     bool is_over_ = false;
     std::array<int, 2> lifeline_{-1, -1};
-    std::thread thread_; // last: it uses the others
+    std::thread thread_; // last member: the thread uses the others
 };
 
 } // namespace hapnet::web

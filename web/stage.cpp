@@ -292,7 +292,7 @@ void Stage::on_empty()
 {
     kill_at_.reset();
     begin_at_.reset();
-    handlers_.on_run_end(run_); // the daemons stay known: pages show what came of them
+    handlers_.on_run_end(run_); // the daemons stay known: pages show their last state
     judge();
     if (next_) {
         choice_ = *std::exchange(next_, std::nullopt);

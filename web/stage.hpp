@@ -24,12 +24,12 @@ namespace hapnet::web {
 class Stage {
 public:
     struct Handlers {
-        std::function<void()> on_change; // of what json() says
+        std::function<void()> on_change; // json() has changed
         std::function<void(const std::string&)> on_event;
         /// The sockets of what was started.
         std::function<void(const std::string& emulator, const std::vector<std::string>& peers)>
             on_daemons;
-        std::function<void(int run)> on_run_end; // its files are written
+        std::function<void(int run)> on_run_end; // the files of the run are written
     };
     struct Setup {
         std::string programs; // the folder of the programs
@@ -98,18 +98,18 @@ private:
     Setup setup_;
     Handlers handlers_;
     Spawner spawner_;
-    std::string sockets_; // a folder of its own
+    std::string sockets_; // the stage's own folder for sockets
     Choice choice_;
-    std::optional<Choice> next_; // to begin with when all has ended
+    std::optional<Choice> next_; // what to start when all children have ended
     State state_ = State::stopped;
     std::string says_ = "press start";
     int run_ = 0;
-    std::optional<RunVerdict> last_; // of the newest run that has ended, in real time
+    std::optional<RunVerdict> last_; // verdict on the newest ended run; real time only
     Places places_;
     std::vector<std::shared_ptr<Running>> children_;
     std::vector<std::string> peer_sockets_;
     std::optional<base::TimePoint> kill_at_;
-    std::optional<base::TimePoint> begin_at_; // the next session of the loop
+    std::optional<base::TimePoint> begin_at_; // when the next session of the loop begins
 };
 
 } // namespace hapnet::web

@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t message_bytes_max = 256;
 constexpr std::uint64_t unacknowledged_max = 8;
-constexpr std::size_t unsent_bytes_max = std::size_t{16} << 20; // a history and much more
+constexpr std::size_t unsent_bytes_max = std::size_t{16} << 20; // more than a whole history
 constexpr auto token_within = 1s;
 constexpr auto unread_max = 10s;
 
@@ -207,11 +207,11 @@ private:
     std::deque<Viewer::Text> unsent_; // the first is being written
     std::size_t unsent_bytes_ = 0;
     base::TimePoint last_progress_{};
-    std::uint64_t sent_ = 0; // live frames
+    std::uint64_t sent_ = 0; // live frames sent
     std::uint64_t acknowledged_ = 0;
     std::uint64_t left_out_ = 0;
-    std::optional<Visit> visit_;           // until it is a member
-    std::optional<Membership> membership_; // of the hub
+    std::optional<Visit> visit_;           // held until the page is a member
+    std::optional<Membership> membership_; // membership of the hub
     bool is_in_ = false;
     bool is_closing_ = false;
     std::optional<websocket::close_reason> close_later_;

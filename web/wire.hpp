@@ -21,7 +21,7 @@ public:
     struct Handlers {
         std::function<void()> on_open;
         std::function<void(std::string_view line)> on_line;
-        std::function<void(const std::string& why)> on_lost; // also when it could not connect
+        std::function<void(const std::string& why)> on_lost; // also if connecting failed
     };
 
     /// Longest line of a daemon of this project; a longer line breaks the connection.
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] bool is_open() const { return is_open_; }
 
 private:
-    struct Alive {}; // handlers that come after the destructor see that it has gone
+    struct Alive {}; // shows late handlers that the Wire is gone
 
     void connect();
     void connect_after(std::chrono::milliseconds time);
@@ -56,7 +56,7 @@ private:
     boost::asio::steady_timer timer_;
     std::shared_ptr<Alive> alive_ = std::make_shared<Alive>();
     bool is_open_ = false;
-    unsigned generation_ = 0; // of the connection: late handlers of an older one do nothing
+    unsigned generation_ = 0; // counts connections: handlers of older ones do nothing
     std::array<char, std::size_t{64} << 10> buffer_{};
     std::string input_;
     std::string unsent_;

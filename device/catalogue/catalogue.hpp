@@ -16,23 +16,23 @@ namespace hapnet::device {
 
 /// Options of a device besides its name. Files are paths.
 struct DeviceOptions {
-    std::string hd_library{};            // hdapi: the vendor's library; "": by its usual names
-    std::string dhd_library{};           // dhd: likewise
-    std::uint16_t inverse3_port = 10001; // inverse3: of its service, on this machine
-    std::string falcon_firmware{};       // falcon: "": it has to be running already
-    std::string omni_torque{};           // omni1394: measured torque per count; "": none
-    bool uncalibrated_force = false;     // omni1394: force without such a table, at most a quarter
-    std::optional<double> hid_force_n{}; // hid: of full scale at the grip; without: no force
-    double hid_travel_m = 0.16;          // hid: of the grip, from stop to stop of an axis
+    std::string hd_library{};            // hdapi: vendor's library; "": found by its usual names
+    std::string dhd_library{};           // dhd: vendor's library; "": found by its usual names
+    std::uint16_t inverse3_port = 10001; // inverse3: port of the vendor's service on this machine
+    std::string falcon_firmware{};       // falcon: firmware file; "": must be running already
+    std::string omni_torque{};           // omni1394: file with the torque per count; "": none
+    bool uncalibrated_force = false;     // omni1394: force without measured torque, at most 1/4
+    std::optional<double> hid_force_n{}; // hid: full-scale force at the grip; nullopt: none
+    double hid_travel_m = 0.16;          // hid: travel of the grip between the stops of an axis
 };
 
 /// A kind of real device, and the way to its devices.
 struct Backend {
     std::string_view name; // as in --device NAME:SERIAL
-    std::string_view what; // it is for
+    std::string_view what; // the devices that it is for
     /// Returns all devices of this kind that can be found without opening one.
     std::vector<Found> (*find)(const DeviceOptions& options);
-    /// The one with this serial; "": the first that is usable.
+    /// Opens the device with this serial; "": the first usable one.
     Opened<std::unique_ptr<Device>> (*open)(const std::string& serial,
                                             const DeviceOptions& options);
 };
@@ -43,7 +43,7 @@ struct Backend {
 /// The name of a real device as --device takes it, such as {"falcon", "12345"}.
 struct DeviceName {
     std::string backend;
-    std::string serial; // "": any
+    std::string serial; // "": any device of this backend
 };
 
 /// Reads BACKEND or BACKEND:SERIAL, of the backends that there are.

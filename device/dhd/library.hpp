@@ -23,12 +23,12 @@ inline constexpr int failed = -1;
 namespace error {
 inline constexpr int none = 0;
 inline constexpr int communication = 2;
-inline constexpr int busy = 3; // the controller
+inline constexpr int busy = 3; // the controller is busy
 inline constexpr int no_driver = 4;
 inline constexpr int no_device = 5;
 inline constexpr int not_available = 6;
 inline constexpr int timeout = 7;
-inline constexpr int not_ready = 12; // the device
+inline constexpr int not_ready = 12; // the device is not ready
 inline constexpr int redundancy_failed = 18;
 inline constexpr int in_use = 20;
 } // namespace error
@@ -37,12 +37,12 @@ inline constexpr int in_use = 20;
 namespace status {
 inline constexpr std::size_t power = 0;
 inline constexpr std::size_t connected = 1;
-inline constexpr std::size_t needs_calibration = 3; // "RESET": its pole is to be put into the pit
+inline constexpr std::size_t needs_calibration = 3; // "RESET": the pole must be put into its pit
 inline constexpr std::size_t force = 5;             // the motors are on
-inline constexpr std::size_t error = 9;             // of the controller
+inline constexpr std::size_t error = 9;             // an error of the controller
 inline constexpr std::size_t force_off_cause = 14;
 } // namespace status
-using Status = std::array<int, 32>; // with room for libraries to come
+using Status = std::array<int, 32>; // larger than today's libraries need, for later ones
 
 /// Why the device itself switched its motors off.
 namespace force_off {
@@ -52,7 +52,7 @@ inline constexpr int velocity = 2;
 /// The functions of the library.
 struct Functions {
     int (*device_count)() = nullptr;
-    int (*open_id)(Id index) = nullptr; // the number of the open device, or below zero
+    int (*open_id)(Id index) = nullptr; // returns the number of the opened device, below 0: failed
     int (*close)(Id device) = nullptr;
     int (*serial_number)(unsigned short* serial, Id device) = nullptr;
     const char* (*system_name)(Id device) = nullptr;
@@ -61,8 +61,8 @@ struct Functions {
     int (*get_position)(double* x, double* y, double* z, Id device) = nullptr;
     int (*get_velocity)(double* x, double* y, double* z, Id device) = nullptr;
     int (*set_force)(double x, double y, double z, Id device) = nullptr;
-    int (*get_button)(int index, Id device) = nullptr; // 1: it is pressed
-    int (*last_error)() = nullptr;                     // of the calling thread
+    int (*get_button)(int index, Id device) = nullptr; // returns 1 if the button is pressed
+    int (*last_error)() = nullptr; // returns the last error of the calling thread
 };
 
 } // namespace hapnet::device::dhd

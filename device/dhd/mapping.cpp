@@ -47,7 +47,7 @@ Capabilities capabilities()
     can.force_max_n = omni_force_n;
     can.force_continuous_n = omni_continuous_n;
     can.stiffness_max_n_per_m = omni_stiffness_n_per_m;
-    can.resolution_m = 5.5e-5; // an Omni's; theirs is finer
+    can.resolution_m = 5.5e-5; // resolution of an Omni; that of these devices is finer
     can.speed_max_m_per_s = 1.0;
     return can;
 }

@@ -35,8 +35,8 @@ namespace hapnet::device::dhd {
 
 /// The results of one round of calls.
 struct Reading {
-    int result = 0;          // of the first call that failed; 0 or more: all did their work
-    int error = error::none; // what the library said then
+    int result = 0;          // of the first call that failed; 0 or more: all calls succeeded
+    int error = error::none; // error code of the call that failed
     std::array<double, 3> position{};
     std::array<double, 3> velocity{};
     std::uint8_t buttons = 0;
@@ -55,8 +55,8 @@ public:
 private:
     [[nodiscard]] Fault fault_of_status(const Status& status, bool wants_force);
 
-    int failures_ = 0;       // in a row
-    bool had_force_ = false; // the motors were on in the last round, and asked for
+    int failures_ = 0;       // communication errors in a row
+    bool had_force_ = false; // the motors were requested and on in the last round
 };
 
 /// Returns the message about a device that does not open, with the cure.

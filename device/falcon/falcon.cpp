@@ -13,7 +13,7 @@ namespace hapnet::device::falcon {
 
 namespace {
 
-constexpr int last_words = 3; // because a wire may lose one
+constexpr int last_words = 3; // several, because one packet may be lost
 constexpr double velocity_cutoff_hz = 30.0;
 
 Capabilities capabilities_of_falcon()
@@ -38,7 +38,7 @@ Capabilities capabilities_of_falcon()
                             .torque_max_nm = glm::dvec3{motor_max / counts_per_newton_metre}}};
 }
 
-/// The centre one is the largest, and the primary one; then plus, forward, minus.
+/// Maps the buttons: the centre one, the largest, is the primary one; then plus, forward, minus.
 std::uint8_t ours(std::uint8_t theirs)
 {
     const auto bit = [&](unsigned from, unsigned to) {
@@ -47,7 +47,8 @@ std::uint8_t ours(std::uint8_t theirs)
     return static_cast<std::uint8_t>(bit(2, 0) | bit(0, 1) | bit(1, 2) | bit(3, 3));
 }
 
-/// Less than was asked for where a motor cannot do it, but in the same direction.
+/// The motor counts for a torque. If a motor cannot reach its count, all are scaled down together,
+/// so that the direction stays.
 Counts counts_for(const glm::dvec3& torque_nm)
 {
     // A positive count drives an arm toward smaller angles.

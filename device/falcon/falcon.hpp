@@ -65,15 +65,15 @@ private:
     VelocityFilter velocity_;
     Buttons buttons_;
     Sample sample_;
-    base::TimePoint now_{};                    // of the last read
-    std::optional<base::TimePoint> last_word_; // that made sense; at first: when it was first asked
-    int silent_reads_ = 0;                     // since then
-    std::uint64_t nonsense_ = 0;               // reports that no arm can give
-    std::uint64_t nonsense_before_ = 0;        // at the last report
+    base::TimePoint now_{};                    // time of the last read
+    std::optional<base::TimePoint> last_word_; // last valid report; before one: first read
+    int silent_reads_ = 0;                     // number of reads since last_word_
+    std::uint64_t nonsense_ = 0;               // number of reports that no arm can give
+    std::uint64_t nonsense_before_ = 0; // nonsense_ and skipped bytes at the last valid report
     bool was_calibrated_ = false;
     bool homes_ = false;
     std::optional<base::TimePoint> unanswered_since_;
-    bool pushes_ = false; // the last packet that was sent did
+    bool pushes_ = false; // the last packet that was sent drives the motors
 };
 
 } // namespace hapnet::device::falcon

@@ -18,25 +18,25 @@ constexpr double c = 0.01443;  // from the shin's end to the grip's middle, alon
 constexpr double d_e = 0.0225; // the short pieces at both ends of the parallelogram, d + e
 constexpr double f = -0.025;   // from the shin's end to the grip's middle, along v
 constexpr double r = 0.040;    // from the middle of the base to the motor, along u
-constexpr double s = -0.02309; // ... along v
+constexpr double s = -0.02309; // from the middle of the base to the motor, along v
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double counts_per_turn = 1280.0; // of the motor: 320 slots, four edges each
+constexpr double counts_per_turn = 1280.0; // of the motor, 320 slots with four edges each
 constexpr double shaft_over_arm = 14.25 / 110.0;
 constexpr double angle_at_zero = 35.0 / 180.0 * pi;
 constexpr double angle_per_count = 2.0 * pi / counts_per_turn * shaft_over_arm;
 
 constexpr int iterations_max = 30;
-constexpr double step_max_m = 0.03;   // longer ones may leave the branch that legs can be on
-constexpr double converged_m = 1e-11; // the last step
+constexpr double step_max_m = 0.03;   // longer steps may leave the branch that legs can be on
+constexpr double converged_m = 1e-11; // a step of this length ends the iteration
 constexpr double angle_error_max = 1e-9;
-constexpr double determinant_min = 1e-9; // of unit normals: below, the arm is stretched out
+constexpr double determinant_min = 1e-9; // for unit normals; below it the arm is stretched out
 
 /// The angles of the legs around z: 90, -30 and -150 degrees, the whole turned by 15.
 constexpr std::array<double, 3> azimuths{105.0, -15.0, -135.0};
 
 struct Leg {
-    glm::dvec3 u; // axes of its frame
+    glm::dvec3 u; // axes of the leg's frame
     glm::dvec3 v;
 };
 
@@ -66,7 +66,7 @@ glm::dvec3 in_leg(const Leg& leg, const base::Position& grip)
 /// plane from the knee to the shin's end: a torus around the knee.
 struct Constraint {
     double value;        // 0 where the shin fits
-    glm::dvec3 gradient; // by the place of the grip, in the common frame
+    glm::dvec3 gradient; // derivative by the grip's position, in the common frame
     double by_angle;     // derivative by the leg's angle
 };
 

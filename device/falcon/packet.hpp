@@ -26,7 +26,7 @@ enum class Lights : std::uint8_t { none = 0x0, green = 0x2, blue = 0x4, red = 0x
 struct Command {
     Counts motors{};
     Lights lights = Lights::none;
-    bool home = false; // look for the ends of the legs' reach
+    bool home = false; // the legs must find the ends of their reach
 
     friend bool operator==(const Command&, const Command&) = default;
 };
@@ -38,7 +38,7 @@ inline constexpr int motor_max = 4096;
 struct Report {
     Counts encoders{};
     std::uint8_t buttons = 0;    // bit 0 plus, 1 forward, 2 centre, 3 minus
-    std::uint8_t legs_homed = 0; // bits 0 to 2
+    std::uint8_t legs_homed = 0; // bits 0 to 2, one for each leg
     std::uint8_t rest = 'A';     // the last byte before '>': meaning unknown
 
     friend bool operator==(const Report&, const Report&) = default;
@@ -46,7 +46,7 @@ struct Report {
 inline constexpr std::uint8_t all_legs = 0x7;
 
 [[nodiscard]] Packet encode(const Command& command);
-[[nodiscard]] Packet encode(const Report& report); // for doubles of the device
+[[nodiscard]] Packet encode(const Report& report); // for test doubles of the device
 /// Returns nullopt for bytes that are no packet. Accepted bytes encode to the same bytes again.
 [[nodiscard]] std::optional<Report> decode_report(std::span<const std::byte, packet_bytes> bytes);
 [[nodiscard]] std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> bytes);

@@ -40,10 +40,10 @@ constexpr std::array to_fast_loader{dtr_low, ChipRequest{baud_rate, 0x0015}}; //
 
 constexpr std::array hello{std::byte{0x0a}, std::byte{0x43}, std::byte{0x0d}};
 constexpr std::array hello_back{std::byte{0x0a}, std::byte{0x44}, std::byte{0x2c}, std::byte{0x0d}};
-constexpr std::array fast_hello{std::byte{0x41}}; // comes back as it is
+constexpr std::array fast_hello{std::byte{0x41}}; // the loader answers with the same byte
 
-constexpr std::size_t chunk_bytes = 62; // with the chip's two a full packet of the bus
-constexpr std::size_t heard_max = 1024; // a loader that goes on and on is none
+constexpr std::size_t chunk_bytes = 62; // a full USB packet when the chip adds its two status bytes
+constexpr std::size_t heard_max = 1024; // no loader sends more than this
 
 constexpr base::Duration answer_max{std::chrono::milliseconds{100}};
 

@@ -75,15 +75,15 @@ private:
 
     std::vector<std::byte> firmware_;
     Step step_;
-    std::vector<ChipRequest>
-        plan_; // what prepares this phase and is still to do, the last one first
+    /// Requests that prepare this phase and are still to be made, the last one first.
+    std::vector<ChipRequest> plan_;
     Phase phase_ = Phase::greet;
     PacketFinder finder_;
-    std::vector<std::byte> heard_; // since the last Say
-    std::size_t loaded_ = 0;       // bytes of the firmware that came back right
-    int tries_ = 0;                // of this phase's Say
-    int empty_ = 0;                // answers without a byte since then
-    int attempts_ = 0;             // to load the firmware
+    std::vector<std::byte> heard_; // bytes received since the last say()
+    std::size_t loaded_ = 0;       // bytes of the firmware that were echoed correctly
+    int tries_ = 0;                // number of say() calls in this phase
+    int empty_ = 0;                // answers without a byte since the last say()
+    int attempts_ = 0;             // number of attempts to load the firmware
 };
 
 } // namespace hapnet::device::falcon

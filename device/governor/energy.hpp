@@ -16,7 +16,7 @@ namespace hapnet::device {
 /// above 0.
 struct EnergyLimits {
     double power_max_w = 0.46;
-    double work_max_j = 0.15; // in any 5 s, and so on average 30 mW
+    double work_max_j = 0.15; // net work within any 5 s: 30 mW on average
 
     friend bool operator==(const EnergyLimits&, const EnergyLimits&) = default;
 };
@@ -35,7 +35,7 @@ constexpr auto fields_of(base::Tag<EnergyLimits> /*struct*/)
 /// The work between motors and hand, all counted as positive into the hand.
 struct EnergyFigures {
     double net_j = 0.0;
-    double net_max_j = 0.0; // a passive device has 0
+    double net_max_j = 0.0; // 0 for a passive device
     double work_5s_max_j = 0.0;
     double power_max_w = 0.0;
 };
@@ -87,7 +87,7 @@ private:
         double seconds = 0.0;
         double work_j = 0.0;
     };
-    /// The lowest net_j of one piece of the last 5 s.
+    /// The lowest net_j is kept for each piece of this length; all pieces together cover 5 s.
     static constexpr base::Duration piece{std::chrono::milliseconds{50}};
     static constexpr std::size_t pieces = 100;
     static constexpr std::size_t steps_max = 50;
@@ -104,16 +104,16 @@ private:
     bool placed_ = false;
     base::Position hip_;
 
-    std::array<Step, steps_max> steps_{}; // a ring of the last `steps_used_`: 5 ms
+    std::array<Step, steps_max> steps_{}; // ring of the last `steps_used_` steps: 5 ms
     std::size_t steps_used_;
     std::size_t next_step_ = 0;
-    Step lately_; // their sum
+    Step lately_; // sum of the steps in the ring
 
     std::array<double, pieces> lowest_{};
     std::size_t next_piece_ = 0;
     base::Duration into_piece_{};
-    double lowest_now_j_ = 0.0;    // of the piece under way
-    double lowest_before_j_ = 0.0; // of those before
+    double lowest_now_j_ = 0.0;    // lowest net_j of the current piece
+    double lowest_before_j_ = 0.0; // lowest net_j of the earlier pieces
 };
 
 } // namespace hapnet::device

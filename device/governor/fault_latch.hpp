@@ -37,23 +37,23 @@ public:
     /// Slower than this the stylus is at rest: a filtered count of an encoder and a tremor are.
     static constexpr double rest_speed_max_m_per_s = 0.05;
     static constexpr base::Duration rest_needed{std::chrono::seconds{1}};
-    /// A button that says so for less was touched by mistake, or has a bad contact.
+    /// A button that is down for a shorter time was touched by mistake, or has a bad contact.
     static constexpr base::Duration press_needed{std::chrono::milliseconds{300}};
-    /// A switch of the holder that says so for less may only have flickered.
+    /// A holder's switch that reports the stylus for a shorter time may only have flickered.
     static constexpr base::Duration dock_needed{std::chrono::milliseconds{50}};
 
 private:
     struct LastSample {
         bool pressed = false;
         bool deliberate = false; // the press began after a second at rest
-        base::Duration held{};   // since that press began
-        base::Duration docked{}; // without a break
+        base::Duration held{};   // time since the press began
+        base::Duration docked{}; // time in the holder without a break
         base::Duration rest{};
     };
 
     Latched latched_;
     std::optional<LastSample> last_;
-    bool was_out_ = false; // of its holder, at some time since the fault
+    bool was_out_ = false; // the stylus was out of its holder since the fault
 };
 
 } // namespace hapnet::device

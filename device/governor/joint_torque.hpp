@@ -10,8 +10,8 @@
 
 namespace hapnet::device {
 
-/// The share of this force that no joint's motor is overtaxed by: torques are the transposed
-/// Jacobian times the force. 0 where the torques are no numbers, as at a place out of reach.
+/// The largest share of this force, 0 to 1, that overtaxes no joint's motor: torques are the
+/// transposed Jacobian times the force. 0 where a torque is not finite, as at a place out of reach.
 [[nodiscard]] inline double share_that_joints_bear(const JointLimits& joints,
                                                    const base::Position& position,
                                                    const base::Force& force)
@@ -19,7 +19,7 @@ namespace hapnet::device {
     const glm::dmat3 jacobian = joints.mechanism.jacobian(position);
     double share = 1.0;
     for (const int joint : {0, 1, 2}) {
-        const glm::dvec3& moves = jacobian[joint]; // the stylus, per radian of this joint
+        const glm::dvec3& moves = jacobian[joint]; // stylus motion per radian of this joint, m
         const double torque =
             std::abs(moves.x * force.value.x + moves.y * force.value.y + moves.z * force.value.z);
         if (!std::isfinite(torque)) return 0.0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double continuous_share_unsaid = 0.25;
 
-bool is_positive(double value) { return value > 0.0; } // no NaN is
+bool is_positive(double value) { return value > 0.0; } // false for NaN
 bool is_positive(base::Duration value) { return value > base::Duration{0}; }
 
 bool has_workspace(const GovernorLimits& limits)

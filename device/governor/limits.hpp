@@ -19,18 +19,18 @@ namespace hapnet::device {
 /// gives the second; without a device there is no such limit. limits_for() puts the two together.
 /// docs/design/governor.md gives the sources of the numbers.
 struct GovernorLimits {
-    double force_max_n = 3.3;         // peak; the Omni's
+    double force_max_n = 3.3;         // peak; default: the Omni's
     double slew_max_n_per_s = 1000.0; // a contact may rise in a few ticks, but not kick
     base::Duration fade_out{std::chrono::milliseconds{50}};
     base::Duration ramp_in{std::chrono::seconds{1}};
     base::Duration tick{std::chrono::milliseconds{1}};       // a late tick grants no larger step
-    base::Duration stall_max{std::chrono::milliseconds{20}}; // a longer gap starts from zero
+    base::Duration stall_max{std::chrono::milliseconds{20}}; // longer gaps restart from zero
     /// A device or a loop that is silent for longer than stall_max gives zero, for longer than
     /// this a fault.
     base::Duration fault_after{std::chrono::milliseconds{100}};
-    double slew_ramping_n_per_s = 100.0; // of a force that grows while it ramps in from zero
-    base::Duration heat_time{std::chrono::seconds{15}}; // that motors take to warm up
-    double heat_start = 0.0;                            // of the motors when the program started
+    double slew_ramping_n_per_s = 100.0; // limit for a growing force during the ramp from zero
+    base::Duration heat_time{std::chrono::seconds{15}}; // time constant of the motors' heat
+    double heat_start = 0.0; // heat of the motors when the program starts
     /// True to compare motion and force: an encoder that stands still, or motors that push the
     /// wrong way, are then faults. For real devices only; simulated and replayed hands are
     /// consistent.
@@ -59,7 +59,7 @@ constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
         base::field("force_max", &GovernorLimits::force_max_n,
                     base::Quantity{base::force_kind, 0.0, 40.0}, "peak of the force, by its norm"),
         base::field("slew_max", &GovernorLimits::slew_max_n_per_s,
-                    base::Quantity{base::force_rate_kind, 100.0, 40'000.0}, // 40 N in a tick
+                    base::Quantity{base::force_rate_kind, 100.0, 40'000.0}, // 40 N in 1 ms
                     "greatest change of the force"),
         base::field("slew_ramping", &GovernorLimits::slew_ramping_n_per_s,
                     base::Quantity{base::force_rate_kind, 1.0, 40'000.0},

@@ -37,7 +37,7 @@ public:
         heat_ += share_ * (goal - heat_);
     }
 
-    /// The most that may be asked of them now, where `peak_n` is the most at all.
+    /// The largest force that the motors may give now; `peak_n` is the largest force of all.
     [[nodiscard]] double force_max_n(double peak_n) const
     {
         if (heat_ <= 1.0 || continuous_n_ >= peak_n) return peak_n;
@@ -47,14 +47,14 @@ public:
 
     [[nodiscard]] double heat() const { return heat_; }
 
-    static constexpr double band = 0.1; // of heat above 1, over which the limit goes down
+    static constexpr double band = 0.1; // range of heat above 1 in which the limit decreases
 
 private:
     double continuous_n_;
     double heating_;
     double per_s_;
     double heat_;
-    base::Duration duration_{}; // what the next is for: in a steady loop it stays the same
+    base::Duration duration_{}; // duration that share_ was computed for; constant in a steady loop
     double share_ = 0.0;
 };
 

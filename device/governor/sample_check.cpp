@@ -20,7 +20,7 @@ double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; 
 SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample& sample,
                                       base::Duration passed, const Push& push)
 {
-    const bool says_silent = sample.fault == Fault::timeout; // it heard nothing from its device
+    const bool says_silent = sample.fault == Fault::timeout; // the backend hears nothing
     if (sample.fault != Fault::none && !says_silent) {
         placed_ = false;
         return {Finding::tripped, {sample.fault, Trip::device}};
@@ -69,7 +69,7 @@ Trip SampleCheck::misfit(const Sample& sample, base::Duration passed, const Push
     const bool stays = placed_ && sample.hip == place_ && force_n >= frozen_force_n;
     if (!stays) {
         frozen_ = base::Duration{0};
-    } else if (is_new) { // an old sample says nothing of the encoders
+    } else if (is_new) { // an old sample says nothing about the encoders
         frozen_ += passed;
     }
     if (frozen_ >= frozen_after) return Trip::frozen;

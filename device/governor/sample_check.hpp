@@ -14,12 +14,12 @@ namespace hapnet::device {
 /// The result of checking a sample: whether a force may follow from it, and the reason if not.
 enum class Finding : std::uint8_t {
     usable,
-    unheard,      // no report from it yet
-    silent,       // nothing new for stall_max: what it said last may be long untrue
+    unheard,      // no report from the device yet
+    silent,       // no new sample for stall_max: the last one may be outdated
     docked,       // the stylus is in its holder
-    uncalibrated, // positions mean nothing
-    too_fast,     // while it gives no force: wait until it is slower
-    tripped,      // a fault, to be latched
+    uncalibrated, // positions are meaningless
+    too_fast,     // too fast to begin a force: wait until the device is slower
+    tripped,      // a fault, which must be latched
 };
 
 /// Looks at one sample after the other.
@@ -27,7 +27,7 @@ class SampleCheck {
 public:
     struct Result {
         Finding finding = Finding::usable;
-        Latched fault{}; // where it is tripped
+        Latched fault{}; // the fault if the finding is `tripped`
     };
 
     /// The force that the device gives until this sample.
@@ -58,18 +58,18 @@ private:
                               bool is_new);
 
     bool heard_ = false;
-    bool placed_ = false; // place_ means something
+    bool placed_ = false; // place_ is valid
     std::uint64_t sequence_ = 0;
-    base::Duration silence_{}; // since the last new sample
-    base::Position place_;     // of that
-    base::Duration frozen_{};  // place_ did not change under force
+    base::Duration silence_{}; // time since the last new sample
+    base::Position place_;     // position in the last new sample
+    base::Duration frozen_{};  // time without a change of place_ under force
     /// The slowest motion against the force in this and the last piece of 25 ms.
     struct Slowest {
         double now = 0.0;
         double before = 0.0;
         base::Duration into_piece{};
     };
-    std::optional<Slowest> slowest_; // while there is force
+    std::optional<Slowest> slowest_; // nullopt: too little force
 };
 
 } // namespace hapnet::device

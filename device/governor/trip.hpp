@@ -12,14 +12,14 @@ namespace hapnet::device {
 /// The rule that latched a fault.
 enum class Trip : std::uint8_t {
     none,
-    device,   // it reported the fault itself
-    silence,  // it said nothing new for too long
+    device,   // the device reported the fault itself
+    silence,  // no new report came from the device for too long
     loop,     // this program's loop stood still for too long
-    speed,    // faster than a hand that holds it
-    jump,     // suddenly elsewhere
+    speed,    // the device moved faster than a hand that holds it
+    jump,     // the device was suddenly elsewhere
     nonsense, // a place or a velocity that is no number
-    frozen,   // its place stays the same to the last bit, whatever pushes it
-    runaway,  // it speeds up against the force: a sign is wrong
+    frozen,   // the position stays the same to the last bit, whatever pushes the device
+    runaway,  // the device speeds up against the force: a sign is wrong
 };
 
 /// The names of rules in statistics.

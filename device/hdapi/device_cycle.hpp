@@ -18,15 +18,15 @@ struct Command {
 
 /// The device's report in a cycle of the library, in the library's units.
 struct Report {
-    std::uint64_t cycle = 0; // counted from 1; 0: nothing yet
+    std::uint64_t cycle = 0; // counted from 1; 0: no report yet
     std::array<double, 3> position_mm{};
     std::array<double, 3> velocity_mm_per_s{};
     int buttons = 0;
     bool inkwell_switch = false;
     unsigned int calibration = calibration::needs_update;
-    unsigned int error = error::none;    // the latest one of this device
-    std::uint64_t error_cycle = 0;       // ... and when it came
-    std::uint64_t failures_in_a_row = 0; // cycles up to this one, all with an error of the line
+    unsigned int error = error::none;    // latest error of this device
+    std::uint64_t error_cycle = 0;       // cycle in which that error came
+    std::uint64_t failures_in_a_row = 0; // latest cycles in a row with a communication error
 };
 
 /// The work for one device in each cycle of the library's scheduler, in its callback. Keeps the
@@ -64,10 +64,10 @@ private:
     Handle handle_;
     int style_;
     Report report_;
-    unsigned int happened_ = error::none; // in the cycle that has ended
+    unsigned int happened_ = error::none; // error in the cycle that has ended
     std::uint64_t stale_cycles_ = 0;
     std::uint64_t silent_frames_ = 0;
-    std::optional<bool> motors_on_; // nullopt: the library has it its own way
+    std::optional<bool> motors_on_; // nullopt: not set since the scheduler's start
 };
 
 /// Largest number of errors that one cycle reads from the library's stack, which may refill itself.

@@ -47,7 +47,7 @@ inline constexpr unsigned int velocity = 0x2051;          // 3 doubles, mm/s, sm
 inline constexpr unsigned int model = 0x2501;             // text
 inline constexpr unsigned int serial = 0x2504;            // text
 inline constexpr unsigned int usable_workspace = 0x2551;  // 6 doubles, mm: least, then most
-inline constexpr unsigned int calibration_style = 0x2555; // int: bits of style
+inline constexpr unsigned int calibration_style = 0x2555; // int: bits, see calibration::style_*
 inline constexpr unsigned int update_rate = 0x2600;       // int, Hz
 inline constexpr unsigned int stiffness_max = 0x2602;     // double, N/mm
 inline constexpr unsigned int force_max = 0x2603;         // double, N
@@ -65,7 +65,7 @@ inline constexpr unsigned int force_clamping = 0x4001;
 
 namespace calibration {
 inline constexpr unsigned int done = 0x5000;
-inline constexpr unsigned int needs_update = 0x5001; // the person did their part
+inline constexpr unsigned int needs_update = 0x5001; // the person has done their part
 inline constexpr unsigned int needs_person = 0x5002;
 inline constexpr int style_encoder_reset = 1;
 inline constexpr int style_automatic = 2;
@@ -75,12 +75,13 @@ inline constexpr int style_inkwell = 4;
 /// The functions of the library. Call those of state and force between begin_frame() and
 /// end_frame(), and all refer to the device that was made current last.
 struct Functions {
-    Handle (*init_device)(const char* name) = nullptr; // nullptr: the default one; makes it current
+    /// Opens a device and makes it current; nullptr: the default device.
+    Handle (*init_device)(const char* name) = nullptr;
     void (*disable_device)(Handle device) = nullptr;
     void (*make_current_device)(Handle device) = nullptr;
     void (*begin_frame)(Handle device) = nullptr;
     void (*end_frame)(Handle device) = nullptr;
-    ErrorInfo (*get_error)() = nullptr; // takes the latest one off a stack
+    ErrorInfo (*get_error)() = nullptr; // takes the latest error off a stack
     const char* (*get_error_string)(unsigned int code) = nullptr;
     void (*enable)(unsigned int capability) = nullptr;
     void (*disable)(unsigned int capability) = nullptr;

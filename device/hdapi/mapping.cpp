@@ -78,7 +78,7 @@ Capabilities capabilities_of(const Properties& properties)
         const auto i = static_cast<std::size_t>(axis);
         const double least = properties.workspace_mm[i];
         const double most = properties.workspace_mm[i + 3];
-        const double length = most - least; // no number where one of them is none
+        const double length = most - least; // NaN if one of the two is NaN
         if (!(length >= axis_min_mm && length <= axis_max_mm)) continue;
         can.workspace_min.value[axis] = 1e-3 * least;
         can.workspace_max.value[axis] = 1e-3 * most;

@@ -31,8 +31,8 @@ void Stylus::take(const Report& report, base::TimePoint now)
     heard_ = now;
     sample_.sequence = report.cycle;
     sample_.calibrated = report.calibration == calibration::done;
-    // Open as long as the stylus rests in it, as H3D's HAPI reads it; others read it the other way
-    // round, and so seen a stylus in the hand would feel nothing.
+    // The switch is open while the stylus rests in the inkwell, as H3D's HAPI reads it. Others read
+    // it the other way round; then a stylus in the hand would feel nothing.
     sample_.docked = style_ == calibration::style_inkwell && !report.inkwell_switch;
     buttons_.update(static_cast<std::uint8_t>(static_cast<unsigned int>(report.buttons) & 0xffU),
                     now);
@@ -42,7 +42,7 @@ void Stylus::take(const Report& report, base::TimePoint now)
     const glm::dvec3 velocity = in_metres(report.velocity_mm_per_s);
     if (!base::is_finite(position) || !base::is_finite(velocity)) {
         if (sample_.fault == Fault::none) sample_.fault = Fault::communication;
-        return; // the last one stays
+        return; // the last position stays
     }
     sample_.hip.value = position;
     sample_.velocity.value = velocity;

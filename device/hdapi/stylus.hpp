@@ -31,7 +31,7 @@ private:
     int style_;
     Sample sample_;
     Buttons buttons_;
-    std::uint64_t errors_seen_ = 0; // the cycle of the latest one
+    std::uint64_t errors_seen_ = 0; // cycle of the latest error that was reported
     std::optional<base::TimePoint> heard_;
 };
 

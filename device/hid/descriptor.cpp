@@ -21,7 +21,7 @@ constexpr std::size_t pushes_max = 4;
 constexpr std::size_t ranges_max = 256;
 
 constexpr std::uint32_t value_bits_max = 32;
-constexpr std::uint32_t is_constant = 0x01; // the bits of a main item
+constexpr std::uint32_t is_constant = 0x01; // bit of a main item's flags
 constexpr std::uint32_t is_variable = 0x02;
 
 /// Global items: they hold until they change.
@@ -118,7 +118,7 @@ std::string Parser::on_item(const Item& item)
     }
     case ItemType::global: return on_global(item);
     case ItemType::local: return on_local(item);
-    case ItemType::long_item: return ""; // none has ever been defined
+    case ItemType::long_item: return ""; // no long item has ever been defined
     case ItemType::reserved: break;
     }
     return "an item of a reserved type";
@@ -198,7 +198,7 @@ std::string Parser::on_local(const Item& item)
     case 0x1: locals_.range_from = usage; return "";
     case 0x2: return on_usage_range_end(usage);
     case 0xa: return "delimiters are not understood";
-    default: return ""; // designators and strings say nothing of a report's form
+    default: return ""; // designators and strings do not affect the form of a report
     }
 }
 
@@ -283,7 +283,7 @@ std::string Parser::add_fields(ReportKind kind, std::uint32_t flags)
             field.usages = {{usage, usage}};
             if (usage < ranges[range_at].last) {
                 ++in_range;
-            } else if (range_at + 1 < ranges.size()) { // the last one holds for all that follow
+            } else if (range_at + 1 < ranges.size()) { // the last range holds for the rest
                 ++range_at;
                 in_range = 0;
             }

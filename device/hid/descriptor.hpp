@@ -30,18 +30,18 @@ struct UsageRange {
 struct Field {
     ReportKind kind = ReportKind::input;
     std::uint8_t report_id = 0;   // 0: the device does not number its reports
-    std::uint32_t bit_offset = 0; // in the report's data, which begin behind its ID
+    std::uint32_t bit_offset = 0; // offset in the report's data, which begin after its ID
     std::uint32_t bit_size = 0;
     std::int64_t logical_min = 0;
     std::int64_t logical_max = 0;
-    std::int64_t physical_min = 0; // both 0: as the logical ones
+    std::int64_t physical_min = 0; // minimum and maximum both 0: same as the logical range
     std::int64_t physical_max = 0;
     std::uint32_t unit = 0;
-    int unit_exponent = 0; // powers of ten
-    bool is_array = false; // its value says which of the usages holds: see value_of()
-    /// A variable's own one, or an array's in the order of their values; may be empty.
+    int unit_exponent = 0; // power of ten
+    bool is_array = false; // the value tells which of the usages holds: see value_of()
+    /// The usage of a variable, or the usages of an array in the order of the values; may be empty.
     std::vector<UsageRange> usages{};
-    std::vector<Usage> collections{}; // those it lies in, the outermost first
+    std::vector<Usage> collections{}; // usages of the collections around it, outermost first
 
     friend bool operator==(const Field&, const Field&) = default;
 };
@@ -57,17 +57,17 @@ struct Field {
 struct ReportSize {
     ReportKind kind = ReportKind::input;
     std::uint8_t report_id = 0;
-    std::uint32_t bits = 0; // without its ID
+    std::uint32_t bits = 0; // length without the ID
 
     friend bool operator==(const ReportSize&, const ReportSize&) = default;
 };
 
 /// A device's description of the reports that it sends and takes.
 struct Descriptor {
-    std::vector<Field> fields{}; // in their order; without padding
+    std::vector<Field> fields{}; // in the order of the descriptor; without padding
     std::vector<ReportSize> reports{};
-    std::vector<Usage> collections{}; // each kind once, as met
-    bool is_numbered = false;         // its reports begin with their ID
+    std::vector<Usage> collections{}; // each usage once, in the order of appearance
+    bool is_numbered = false;         // reports begin with their ID
 
     /// The data of a report without its ID, in bytes; 0: there is no such report.
     [[nodiscard]] std::size_t bytes_of(ReportKind kind, std::uint8_t report_id) const;

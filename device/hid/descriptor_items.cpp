@@ -26,7 +26,7 @@ std::optional<Item> ItemReader::next()
     if (left == 0) return std::nullopt;
     Item item{.at = position_};
     const std::uint32_t prefix = byte(position_);
-    if (prefix == long_item_prefix) { // the length, the tag, the data
+    if (prefix == long_item_prefix) { // length, tag and data follow
         if (left < 3 || left < 3 + byte(position_ + 1)) return std::nullopt;
         item.type = ItemType::long_item;
         position_ += 3 + byte(position_ + 1);

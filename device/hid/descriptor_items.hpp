@@ -20,10 +20,10 @@ enum class ItemType : std::uint8_t { main, global, local, reserved, long_item };
 
 /// One item of a report descriptor.
 struct Item {
-    std::size_t at = 0; // its first byte
+    std::size_t at = 0; // place of the first byte in the descriptor
     ItemType type = ItemType::main;
     std::uint8_t tag = 0;
-    std::uint8_t size = 0; // bytes of its value; 0 for a long item, whose data are skipped
+    std::uint8_t size = 0; // bytes of the value; 0 for a long item, whose data are skipped
     ItemValue value{};
 };
 

@@ -13,10 +13,10 @@ namespace hapnet::device::hid {
 struct Order {
     static constexpr double level_full = 32767.0;
 
-    std::array<std::int16_t, 2> levels{}; // of full scale in 1/32767; right, away
+    std::array<std::int16_t, 2> levels{}; // in 1/32767 of full scale: right, away from the user
     bool motors_on = false;
-    bool is_last = false;    // free the effects in the device, too
-    std::uint8_t stops = 0;  // counts the requests to stop; each is sent anew
+    bool is_last = false;    // also frees the effects in the device
+    std::uint8_t stops = 0;  // counts the requests to stop, each of which is sent
     std::uint8_t probes = 0; // counts the requests to check that a resting device lives
     std::uint8_t number = 0; // counts the orders with the motors on
 
@@ -49,9 +49,9 @@ struct Order {
 /// The results of the orders so far. The counters wrap around.
 struct Progress {
     std::uint32_t sent = 0;    // reports that the device took
-    std::uint32_t refused = 0; // ... and that it did not
+    std::uint32_t refused = 0; // reports that the device did not take
     bool is_busy = false;      // there is still something to send
-    bool is_gone = false;      // the device
+    bool is_gone = false;      // the device has gone
 };
 
 /// The driver of a device leaves the newest order here, and the sender takes it. Any thread may do

@@ -97,7 +97,7 @@ void PidDevice::drain()
         const ReadResult heard = parts_.wire->read(report);
         if (heard.moved == TransferResult::nothing) return;
         if (heard.moved != TransferResult::yes) {
-            is_gone_ = true; // a read does not fail but for that
+            is_gone_ = true; // a read fails only if the device has gone
             return;
         }
         on_report(std::span{report}.first(heard.size));

@@ -20,8 +20,8 @@ struct PidParts {
     Identity identity{};
     InputLayout input{};
     Options options{};
-    std::unique_ptr<Wire> wire{};           // to read from
-    std::unique_ptr<ReportSender> outbox{}; // none: no force
+    std::unique_ptr<Wire> wire{};           // source of the input reports
+    std::unique_ptr<ReportSender> outbox{}; // nullptr: no force
 };
 
 /// A joystick or wheel base with force feedback by USB HID PID, as a device of one or two degrees
@@ -53,7 +53,7 @@ public:
     static constexpr base::Duration probe_after{std::chrono::milliseconds{8}};
     /// A pause between two reads counts as no more: it was the host's.
     static constexpr base::Duration pause_max{std::chrono::milliseconds{5}};
-    static constexpr int reports_per_read_max = 64; // the kernel keeps as many
+    static constexpr int reports_per_read_max = 64; // the kernel's queue holds this many
     static constexpr double velocity_cutoff_hz = 30.0;
 
 private:
@@ -70,12 +70,12 @@ private:
     Sample sample_;
     std::optional<base::TimePoint> read_at_;
     Progress progress_{};
-    base::Duration silent_{};  // since its last report
-    base::Duration unmoved_{}; // since it last took something, while there is something to take
+    base::Duration silent_{};  // time since the device last reported, or took a report while silent
+    base::Duration unmoved_{}; // time for which waiting reports were not taken
     base::Duration since_probed_{};
     std::uint8_t buttons_down_ = 0;
-    bool was_garbled_ = false; // the last report
-    bool is_garbled_ = false;  // a report since the last read
+    bool was_garbled_ = false; // the last report was garbled
+    bool is_garbled_ = false;  // a report in or just before the latest read() was garbled
     bool is_refusing_ = false;
     bool is_gone_ = false;
 };

@@ -14,20 +14,20 @@ namespace hapnet::device::hid {
 
 /// The place and the length of a report.
 struct ReportPlace {
-    std::uint8_t id = 0;   // 0: not numbered
-    std::size_t bytes = 0; // without the ID
+    std::uint8_t id = 0;   // 0: reports have no ID
+    std::size_t bytes = 0; // length without the ID
 };
 
 /// The report that says where the grip is.
 struct InputLayout {
     ReportPlace place{};
-    std::vector<Field> axes{};    // X, and Y where it has a motor, too
-    std::vector<Field> buttons{}; // the first eight
+    std::vector<Field> axes{};    // X, and Y if effects can act on it
+    std::vector<Field> buttons{}; // the first eight buttons
 };
 
 /// A way to say one of several things: an array's value, or a bit for each.
 struct Selector {
-    std::vector<Field> fields{}; // of one report
+    std::vector<Field> fields{}; // all in one report
 };
 
 /// Where a PID device wants to hear what of a constant force: USB Device Class Definition for
@@ -40,7 +40,7 @@ struct ForceLayout {
         Field duration{};
         std::optional<Field> gain{};
         Field direction_enable{};
-        Field direction{}; // the first of them: an angle
+        Field direction{}; // the first direction: an angle
     } set_effect{};
     struct SetConstantForce {
         ReportPlace place{};
@@ -62,11 +62,11 @@ struct ForceLayout {
         Field gain{};
     };
     std::optional<DeviceGain> device_gain{};
-    struct Create { // feature
+    struct Create { // a feature report
         ReportPlace place{};
         Selector type{};
     } create{};
-    struct BlockLoad { // feature
+    struct BlockLoad { // a feature report
         ReportPlace place{};
         Field block{};
         Selector status{};

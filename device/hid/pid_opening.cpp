@@ -104,7 +104,7 @@ private:
 
     Wire& wire_;
     const ForceLayout& layout_;
-    TransferResult moved_ = TransferResult::yes; // of all writes so far
+    TransferResult moved_ = TransferResult::yes; // result of all writes so far
 };
 
 } // namespace

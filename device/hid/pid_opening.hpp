@@ -13,7 +13,7 @@ namespace hapnet::device::hid {
 
 /// A device that holds our effects, all without force and not playing, its actuators disabled.
 struct Prepared {
-    std::vector<std::uint32_t> blocks{}; // an effect for each axis: along x, along y
+    std::vector<std::uint32_t> blocks{}; // one effect for each axis: x, then y
 };
 
 /// Resets the device, asks it for a constant force per axis, and sets these up. Where it fails, no

@@ -12,7 +12,7 @@ namespace hapnet::device::hid {
 
 namespace {
 
-constexpr std::uint32_t si_seconds = 0x1001; // units, USB HID 1.11 section 6.2.2.7
+constexpr std::uint32_t si_seconds = 0x1001; // a unit code of USB HID 1.11, section 6.2.2.7
 constexpr std::uint32_t english_seconds = 0x1003;
 
 void select(const Selector& selector, Usage choice, std::span<std::byte> data)

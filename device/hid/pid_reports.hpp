@@ -24,16 +24,17 @@ enum class Axis : std::uint8_t { right, away };
 /// A constant force along an axis, at full gain, for effect_lasts after each start. The place has
 /// to be one that the device gave.
 [[nodiscard]] Report set_effect_report(const ForceLayout& layout, std::uint32_t block, Axis axis);
-/// -1 to 1 of full scale.
+/// Sets the level of an effect: `share` of full scale, -1 to 1.
 [[nodiscard]] Report level_report(const ForceLayout& layout, std::uint32_t block, double share);
-/// usage::effect_start or usage::effect_stop.
+/// Starts or stops an effect: usage::effect_start or usage::effect_stop.
 [[nodiscard]] Report operation_report(const ForceLayout& layout, std::uint32_t block,
                                       Usage operation);
-/// usage::enable_actuators, disable_actuators, stop_all_effects or device_reset.
+/// Controls the whole device: usage::enable_actuators, disable_actuators, stop_all_effects or
+/// device_reset.
 [[nodiscard]] Report control_report(const ForceLayout& layout, Usage control);
-/// Everything at full scale; nullopt where the device has no such gain.
+/// Sets the gain of the device to full scale; nullopt where the device has no gain.
 [[nodiscard]] std::optional<Report> gain_report(const ForceLayout& layout);
-/// A feature: asks for a place for another constant force.
+/// A feature report that asks for a place for another constant force.
 [[nodiscard]] Report create_report(const ForceLayout& layout);
 /// Gives the place of an effect back; nullopt where the device cannot.
 [[nodiscard]] std::optional<Report> free_report(const ForceLayout& layout, std::uint32_t block);
@@ -43,7 +44,7 @@ enum class Load : std::uint8_t { success, full, error };
 /// The answer in a Block Load report to the last request for an effect.
 struct BlockLoadResult {
     Load load = Load::error;
-    std::uint32_t block = 0; // its place, where there was success
+    std::uint32_t block = 0; // place of the effect, after a success
 };
 [[nodiscard]] BlockLoadResult read_block_load(const ForceLayout& layout, const Report& report);
 

@@ -40,7 +40,7 @@ void PidSender::plan(const Order& order)
     } else {
         plan_stop(order);
     }
-    planned_for_ = order; // what it says shows whether the device lives, too
+    planned_for_ = order; // the order's reports also serve as its probe
 }
 
 void PidSender::plan_push(const Order& order)

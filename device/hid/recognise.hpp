@@ -25,14 +25,14 @@ struct HidNode {
     std::optional<std::vector<std::byte>> descriptor{};
 };
 
-/// ... and as a device of this software.
+/// A HID device that this software recognised.
 struct RecognisedDevice {
     std::string path{};
-    std::string node{};   // "hidraw0"
-    std::string serial{}; // ... which stands in for a missing serial number
+    std::string node{};   // such as "hidraw0"
+    std::string serial{}; // the serial number, or `node` where there is none
     std::string name{};
     bool is_spacemouse = false;
-    std::optional<InputLayout> input{}; // of a PID device
+    std::optional<InputLayout> input{}; // nullopt: not a usable PID device
     std::optional<ForceLayout> force{};
     std::string no_force_because{};
     std::optional<DeviceError> unusable{};

@@ -37,7 +37,7 @@ Sample SpaceMouse::read(base::TimePoint now)
     const base::Duration passed =
         read_at_ ? std::min(now - *read_at_, pause_max) : base::Duration{0};
     read_at_ = now;
-    move(passed); // as the cap stood until now
+    move(passed); // by the cap's displacement until now
     if (!is_gone_) drain(now);
     if (now - deflected_at_ > deflection_lasts || is_gone_) speed_ = {};
     buttons_.update(buttons_down_, now);
@@ -68,7 +68,7 @@ void SpaceMouse::drain(base::TimePoint now)
         const ReadResult heard = wire_->read(report);
         if (heard.moved == TransferResult::nothing) return;
         if (heard.moved != TransferResult::yes) {
-            is_gone_ = true; // a read does not fail but for that
+            is_gone_ = true; // a read fails only if the device has gone
             return;
         }
         on_report(std::span{report}.first(heard.size), now);

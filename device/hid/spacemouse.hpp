@@ -31,11 +31,11 @@ public:
 
     static constexpr double speed_max_m_per_s = 0.1; // at full deflection
     static constexpr int deflection_full = 350;
-    static constexpr int deflection_least = 10; // less is a cap at rest
+    static constexpr int deflection_least = 10; // a smaller deflection means a cap at rest
     static constexpr base::Duration deflection_lasts{std::chrono::milliseconds{200}};
     /// A pause between two reads counts as no more, or the position would jump.
     static constexpr base::Duration pause_max{std::chrono::milliseconds{20}};
-    static constexpr int reports_per_read_max = 64; // the kernel keeps as many
+    static constexpr int reports_per_read_max = 64; // the kernel's queue holds this many
 
 private:
     void drain(base::TimePoint now);
@@ -49,9 +49,9 @@ private:
     Sample sample_;
     std::optional<base::TimePoint> read_at_;
     base::TimePoint deflected_at_{};
-    glm::dvec3 speed_{0.0}; // m/s, asked for by the cap
+    glm::dvec3 speed_{0.0}; // speed that the cap asks for, m/s
     std::uint8_t buttons_down_ = 0;
-    bool is_garbled_ = false; // its last report
+    bool is_garbled_ = false; // the last report was garbled
     bool is_gone_ = false;
 };
 

@@ -18,7 +18,7 @@ namespace hapnet::device::hid {
 struct SpaceMouseReport {
     /// About -350 to 350 along the device's axes: x right, y toward the user, z down.
     std::optional<glm::ivec3> deflection{};
-    std::optional<std::uint8_t> buttons{}; // the first eight
+    std::optional<std::uint8_t> buttons{}; // the first eight buttons
 };
 
 /// No SpaceMouse reports more than this.

@@ -13,7 +13,7 @@ enum class TransferResult : std::uint8_t {
     yes,
     nothing, // no report was waiting
     failed,  // the device refused it or did not answer
-    gone,    // there is no device any more
+    gone,    // the device has gone
 };
 
 /// The result of a read.

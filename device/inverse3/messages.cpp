@@ -155,7 +155,7 @@ Capabilities capabilities()
     can.force_max_n = omni_force_n;
     can.force_continuous_n = omni_continuous_n;
     can.stiffness_max_n_per_m = omni_stiffness_n_per_m;
-    can.resolution_m = 5.5e-5; // an Omni's, as its own is not known here
+    can.resolution_m = 5.5e-5; // resolution of an Omni, as that of the device is not known
     can.speed_max_m_per_s = 1.0;
     can.buttons = 3;
     return can;

@@ -28,14 +28,14 @@ struct DeviceState {
     bool calibrated = false;
     bool ready = true;      // false: the service does not drive it (yet)
     bool powered = true;    // false: its motors have no supply
-    bool in_use = false;    // by another session
+    bool in_use = false;    // another session uses the device
     bool plain_axes = true; // false: the service was told to permute its axes
 };
 
 /// A message of the service.
 struct ServiceState {
     std::vector<DeviceState> devices;
-    std::uint8_t buttons = 0; // of the first grip: a, b, c from bit 0 on
+    std::uint8_t buttons = 0; // of the first grip: buttons a, b, c from bit 0 on
 
     /// The device with this identity, nullptr: it is not there. "": the first one.
     [[nodiscard]] const DeviceState* find(std::string_view id) const;

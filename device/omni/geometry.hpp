@@ -16,9 +16,9 @@ namespace hapnet::device::omni {
 // vendor's library, in the middle of the workspace. Lengths as usually published (Silva et al.
 // 2009; Sansanayuth et al. 2012), not measured.
 
-inline constexpr double link_m = 0.13335;   // of both links: 5.25 inches
-inline constexpr double height_m = 0.02335; // of the origin below the shoulder's axis
-inline constexpr double depth_m = 0.16835;  // of the origin before it
+inline constexpr double link_m = 0.13335;   // length of each of the two links: 5.25 inches
+inline constexpr double height_m = 0.02335; // distance of the origin below the shoulder's axis
+inline constexpr double depth_m = 0.16835; // distance of the origin in front of the shoulder's axis
 
 /// Angles in radians: x the waist (positive turns the stylus to the left), y the shoulder from the
 /// horizontal, z the forearm from the vertical, which is absolute.
@@ -26,8 +26,8 @@ struct Joints {
     glm::dvec3 angles{0.0};
 };
 
-/// Where the mechanism ends: of waist, shoulder and elbow, which is forearm less shoulder. From a
-/// published model of the arm.
+/// The range of a joint, rad: of the waist, the shoulder or the elbow, whose angle is the forearm's
+/// less the shoulder's. From a published model of the arm.
 struct JointRange {
     double least;
     double most;
@@ -47,9 +47,9 @@ inline constexpr glm::dvec3 torque_max_nm{3.3 * depth_m, 3.3 * link_m, 3.3 * lin
 /// Figures of the data sheet.
 inline constexpr glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
 inline constexpr double force_max_n = 3.3;         // peak, at the origin
-inline constexpr double force_continuous_n = 0.88; // for 24 hours
-inline constexpr double friction_n = 0.26;         // back-drive, at the stylus
-inline constexpr double tip_mass_kg = 0.045;       // apparent
+inline constexpr double force_continuous_n = 0.88; // bearable for 24 hours
+inline constexpr double friction_n = 0.26;         // back-drive friction at the stylus
+inline constexpr double tip_mass_kg = 0.045;       // apparent mass at the stylus
 /// The stiffness that stays stable in the hand, below the 1.02 N/mm of the mechanism (CHAI3D's
 /// table).
 inline constexpr double stiffness_max_n_per_m = 700.0;

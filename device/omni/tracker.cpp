@@ -67,7 +67,7 @@ void Tracker::follow_dock(const Report& report, base::TimePoint now)
     lost_ = false;
     if (zero_ && farthest(report.counts, counts_at(in_inkwell_, *zero_)) <= resting_counts) return;
     zero_ = zero_from(report.counts, in_inkwell_);
-    velocity_ = VelocityFilter{30.0}; // that it is somewhere else now is no motion
+    velocity_ = VelocityFilter{30.0}; // the new zero changes the position without a motion
 }
 
 const Sample& Tracker::at(base::TimePoint now)

@@ -18,7 +18,7 @@ struct Report {
     Counts counts{0};
     bool docked = false;
     std::uint8_t buttons = 0;  // one bit each, 1: down
-    std::uint32_t skipped = 0; // number of reports lost before it
+    std::uint32_t skipped = 0; // number of reports lost before this one
 };
 
 /// Tracks the stylus and the faults of an Omni by its reports. Its encoders mean nothing until the
@@ -65,12 +65,12 @@ private:
     std::optional<base::TimePoint> heard_at_;
     std::optional<base::TimePoint> resting_since_;
     Counts resting_at_{0};
-    bool lost_ = false; // its calibration
+    bool lost_ = false; // the calibration was lost
     bool gone_ = false;
-    bool heard_nonsense_ = false; // since the last report
-    bool has_moved_ = false;      // since the last at()
+    bool heard_nonsense_ = false; // nonsense came since the last report
+    bool has_moved_ = false;      // a position came since the last at()
     Buttons buttons_;
-    VelocityFilter velocity_{30.0}; // Hz: a count a millisecond is 55 mm/s
+    VelocityFilter velocity_{30.0}; // cutoff, Hz: one count per millisecond is 55 mm/s
     Sample sample_{.hip = {}, .velocity = {}, .calibrated = false};
 };
 

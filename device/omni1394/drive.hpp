@@ -39,7 +39,7 @@ struct Profile {
 enum class Use : std::uint8_t {
     read_only,    // the default: the torque per count was not measured
     uncalibrated, // at most a quarter of the counts, at an estimated scale
-    measured,     // all of them, by a table
+    measured,     // all counts, at the measured scale
 };
 [[nodiscard]] Use use_of(const Profile& profile, bool uncalibrated_force);
 

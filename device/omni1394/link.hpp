@@ -21,17 +21,17 @@ struct Channels {
 
 /// The next event.
 enum class Arrival : std::uint8_t {
-    nothing,   // it has nothing more to say now
-    packet,    // see the packet
-    bus_reset, // someone was plugged in or out, and all have new addresses
-    gone,      // the device is no more
+    nothing,   // no event is waiting
+    packet,    // a packet from the device
+    bus_reset, // a device was plugged in or out, and all have new addresses
+    gone,      // the device has gone
 };
 
 /// A packet of the device, as it came.
 struct ReceivedPacket {
     std::array<std::byte, device_packet_bytes_max> bytes{};
     std::size_t size = 0;
-    unsigned cycle = 0; // of the bus, of 125 us, 0 to 7999
+    unsigned cycle = 0; // cycle of the bus, 125 us long: 0 to 7999
 
     [[nodiscard]] std::span<const std::byte> content() const
     {

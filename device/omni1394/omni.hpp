@@ -66,12 +66,12 @@ private:
     omni::Tracker tracker_;
     Sample sample_;
     bool has_gone_ = false;
-    std::optional<std::uint32_t> message_; // the last one's number
+    std::optional<std::uint32_t> message_; // number of the last message
     std::uint64_t lost_ = 0;
     std::uint64_t garbled_ = 0;
-    std::array<News, 64> news_; // not read yet
+    std::array<News, 64> news_; // arrivals that read() has not used yet
     std::size_t news_count_ = 0;
-    std::optional<unsigned> beat_cycle_; // of the bus, at the last beat
+    std::optional<unsigned> beat_cycle_; // cycle of the bus at the last beat
 };
 
 } // namespace hapnet::device::omni1394

@@ -22,7 +22,7 @@ struct HostPacket {
     glm::ivec3 motors{0};
     bool motors_on = false;
     bool dock_light_flashes = false;
-    bool dock_light_flashes_fast = false; // with the other one: it shines
+    bool dock_light_flashes_fast = false; // together with dock_light_flashes: steady light
 
     friend bool operator==(const HostPacket&, const HostPacket&) = default;
 };
@@ -39,12 +39,12 @@ using HostBytes = std::array<std::byte, host_packet_bytes>;
 struct DevicePacket {
     omni::Counts counts{0};
     std::array<std::uint16_t, 3> gimbal{};          // potentiometers; the low 5 bits are noise
-    std::array<std::uint16_t, 3> gimbal_opposite{}; // the same from the other end
-    std::uint8_t number = 0;                        // of the packet
+    std::array<std::uint16_t, 3> gimbal_opposite{}; // the same potentiometers from the other end
+    std::uint8_t number = 0;                        // number of the packet
     std::uint8_t buttons = 0;                       // bits 0 and 1, 1: down
     bool docked = false;
-    std::uint32_t message = 0; // counts up by 1, also while no program listens
-    std::uint32_t clock = 0;   // of unknown unit
+    std::uint32_t message = 0; // message count, which also grows while no program listens
+    std::uint32_t clock = 0;   // time in an unknown unit
 
     friend bool operator==(const DevicePacket&, const DevicePacket&) = default;
 };

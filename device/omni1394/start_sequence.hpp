@@ -19,7 +19,7 @@ struct RegisterAccess {
     std::uint64_t address = 0;
     std::size_t size = 0;
     bool writes = false;
-    std::array<std::byte, 4> bytes{}; // to write; the first `size`
+    std::array<std::byte, 4> bytes{}; // bytes to write: the first `size` of these
 
     [[nodiscard]] std::span<const std::byte> to_write() const
     {
@@ -53,10 +53,10 @@ private:
         serial,
         to_device_channel,
         to_host_channel,
-        to_host_channel_again, // read back
+        to_host_channel_again, // reads to_host_channel back
         dubious,
-        control, // read, and
-        stream,  // written
+        control, // reads the control register
+        stream,  // writes the control register with the streaming bit
         done,
         failed,
     };

@@ -15,7 +15,7 @@ base::Result<base::Position> parse_page_place(double x, double y, double z)
 {
     const base::Position place{{x, y, z}};
     for (const int axis : {0, 1, 2}) {
-        if (std::abs(place.value[axis]) <= page_reach_m) continue; // false for what is no number
+        if (std::abs(place.value[axis]) <= page_reach_m) continue; // false for NaN
         return base::fail(fmt::format("\"{}\" must be a number of metres from {} to {}",
                                       "xyz"[axis], -page_reach_m, page_reach_m));
     }
@@ -44,7 +44,7 @@ void PageHand::hear(const std::optional<HandWish>& wish, base::TimePoint now)
     const base::Duration apart = heard_ ? now - *heard_ : base::Duration{0};
     goal_ = wish->place;
     grips_ = wish->grips;
-    arrives_ = last_.value_or(now) + std::min(apart, goes_for_max); // it goes from this tick on
+    arrives_ = last_.value_or(now) + std::min(apart, goes_for_max); // moves from this tick on
     heard_ = now;
 }
 

@@ -16,7 +16,7 @@ namespace hapnet::device {
 /// A visitor's request for the hand of the page.
 struct HandWish {
     base::Position place;
-    bool grips = false; // what is within reach of the hand
+    bool grips = false; // the hand grips what is within its reach
 
     friend bool operator==(const HandWish&, const HandWish&) = default;
 };
@@ -67,9 +67,9 @@ private:
     base::Position hip_{rest_m};
     base::Position goal_{rest_m};
     bool grips_ = false;
-    base::TimePoint arrives_{};            // at the goal, unless that is too far
-    std::optional<base::TimePoint> heard_; // the newest wish; nullopt: the hand is let go
-    std::optional<base::TimePoint> last_;  // read
+    base::TimePoint arrives_{};            // time of arrival at the goal, unless it is too far
+    std::optional<base::TimePoint> heard_; // time of the newest wish; nullopt: the hand is let go
+    std::optional<base::TimePoint> last_;  // time of the last read()
 };
 
 } // namespace hapnet::device

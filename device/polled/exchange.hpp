@@ -20,7 +20,7 @@ struct Command {
 
 /// An answer of the device, in the frame and the units of Sample.
 struct Report {
-    std::uint64_t cycle = 0; // counted from 1; 0: nothing yet
+    std::uint64_t cycle = 0; // counted from 1; 0: no report yet
     base::Position hip{};
     base::Velocity velocity{};
     std::uint8_t buttons = 0; // one bit each, not debounced; bit 0 is the primary one

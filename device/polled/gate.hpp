@@ -26,9 +26,9 @@ public:
     static constexpr base::Duration fault_held_for{std::chrono::milliseconds{20}};
 
 private:
-    std::optional<base::TimePoint> given_; // when the newest one came
-    bool is_trusted_ = false;              // the last answer
-    Fault fault_ = Fault::none;            // the latest one
+    std::optional<base::TimePoint> given_; // time at which the newest command came
+    bool is_trusted_ = false;              // the last answer was calibrated and had no fault
+    Fault fault_ = Fault::none;            // the latest fault in an answer
     base::TimePoint fault_at_{};
 };
 

@@ -6,7 +6,7 @@ namespace hapnet::device {
 
 namespace {
 
-constexpr double peak_n = 3.3; // the Omni's
+constexpr double peak_n = 3.3; // peak force of the Omni
 
 } // namespace
 

@@ -25,8 +25,8 @@ struct HandMoment {
 /// A hand's way, recorded: at least one moment, in the order of time.
 using HandTrace = std::vector<HandMoment>;
 
-/// Between two moments evenly from one to the next; before the first, and after the last, there
-/// without a grip. A docked stylus stays docked.
+/// The hand at a time: between two moments evenly from one to the next; before the first, and after
+/// the last, there without a grip. A docked stylus stays docked.
 [[nodiscard]] HandMoment moment_at(const HandTrace& trace, double seconds);
 
 inline constexpr std::size_t hand_moments_max = 4'000'000;

@@ -27,7 +27,7 @@ Sample Replay::read(base::TimePoint now)
     return hand_.sample(moment, now);
 }
 
-void Replay::apply(const GovernedForce& /*force*/) {} // what has been cannot give way
+void Replay::apply(const GovernedForce& /*force*/) {} // a recorded hand cannot give way
 
 void Replay::on_cue(const Cue& cue) { start_ = cue.start; }
 

@@ -13,8 +13,8 @@ namespace hapnet::device {
 
 /// The behaviour of a hand after the last moment of its trace.
 enum class AfterTheEnd : std::uint8_t {
-    stays,        // and lets go
-    begins_again, // with a jump, unless it ends where it began
+    stays,        // the hand stays at the last place and lets go
+    begins_again, // from the start, with a jump unless the trace ends where it began
 };
 
 /// A hand that follows a recorded path, whatever force it is given: evenly from one recorded moment

@@ -25,7 +25,7 @@ Swing swing_of(double spring, double decay)
     constexpr double small = 1e-2; // the next terms of the series are below 1e-16
     if (z < -small) {
         const double rate = std::sqrt(-z);
-        const double slow = base::exp(-spring / (rate + decay)); // rate - decay
+        const double slow = base::exp(-spring / (rate + decay)); // exp(rate - decay)
         const double fast = base::exp(-rate - decay);
         return {0.5 * (slow + fast), 0.5 * (slow - fast) / rate};
     }

@@ -15,7 +15,7 @@ struct HandAxis {
 /// The inputs of an axis during a step: a constant force, and a target that moves evenly.
 struct HandDrive {
     double force_n = 0.0;
-    double target_m = 0.0; // at the start of the step
+    double target_m = 0.0; // target at the start of the step
     double target_velocity_m_per_s = 0.0;
 };
 
@@ -24,7 +24,7 @@ struct HandDrive {
 /// acceleration. Exact for damping below, at and above the critical damping.
 struct HandResponse {
     double position_by_velocity = 0.0;     // s
-    double velocity_by_velocity = 1.0;     //
+    double velocity_by_velocity = 1.0;     // no unit
     double position_by_acceleration = 0.0; // s^2; velocity_by_acceleration = position_by_velocity
     double position_by_jerk = 0.0;         // s^3; velocity_by_jerk = position_by_acceleration
 };
@@ -47,8 +47,8 @@ public:
 private:
     /// The acceleration of an axis whose friction keeps its sign, at the start of a step.
     struct Pull {
-        double acceleration = 0.0; // by spring, force and friction
-        double jerk = 0.0;         // by the target's motion
+        double acceleration = 0.0; // due to spring, force and friction
+        double jerk = 0.0;         // due to the target's motion
     };
     [[nodiscard]] static double velocity_after(const HandResponse& response, double velocity,
                                                const Pull& pull);
@@ -66,7 +66,7 @@ private:
     double stiffness_;    // k / m, 1/s^2
     double inverse_mass_; // 1/kg
     double friction_;     // c / m, m/s^2
-    double step_s_ = 0.0; // what response_ is for
+    double step_s_ = 0.0; // length of the step that response_ is for
     HandResponse response_;
 };
 

@@ -19,19 +19,19 @@ public:
     HandNoise(base::Seed seed, std::uint16_t peer_id, const Operator& person);
 
     struct Value {
-        double away_m = 0.0;      // from where the hand wants to be
-        double force_share = 0.0; // of its force, more or less
+        double away_m = 0.0;      // distance from where the hand wants to be
+        double force_share = 0.0; // error of the force, as a share of it
     };
     /// `seconds` from the start.
     [[nodiscard]] Value at(double seconds) const;
 
 private:
     static constexpr std::size_t swings_each = 3;
-    static constexpr std::size_t swings = 3 * swings_each; // of wander, tremor and force
+    static constexpr std::size_t swings = 3 * swings_each; // sines for wander, tremor and force
 
     std::array<double, swings> hertz_{};
-    std::array<double, swings> turn_{}; // at the start
-    double wander_m_;                   // of each
+    std::array<double, swings> turn_{}; // phases at the start, in turns
+    double wander_m_;                   // amplitude of each sine
     double tremor_m_;
     double force_share_;
 };

@@ -21,7 +21,7 @@ struct OmniPlant {
     double friction_n = 0.26;       // back-drive, Coulomb
     double resolution_m = 0.000055; // nominal position resolution
     glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
-    double velocity_cutoff_hz = 30.0; // of the filter on differenced positions
+    double velocity_cutoff_hz = 30.0; // cutoff of the filter on differenced positions
 };
 
 /// A simulated person and the task to play.
@@ -30,7 +30,7 @@ struct Performer {
     TaskOptions options{};
     Operator person{};
     OmniPlant plant{};
-    std::shared_ptr<const HandTrace> way{}; // that the person means to go instead of the task's
+    std::shared_ptr<const HandTrace> way{}; // path that the person follows instead of the task's
 };
 
 /// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:
@@ -64,12 +64,12 @@ private:
     Capabilities capabilities_;
     std::atomic<bool> halted_{false};
     std::uint64_t reads_ = 0;
-    glm::dvec3 centre_{0.0}; // of the workspace, in the scene
+    glm::dvec3 centre_{0.0}; // centre of the workspace, in the scene
     HandMotion motion_;
     Person person_;
     std::array<HandAxis, 3> axes_{HandAxis{}, HandAxis{}, HandAxis{.position_m = 0.035}};
     glm::dvec3 force_{0.0};
-    base::Position intended_{{0.0, 0.0, 0.035}}; // at simulated_to_
+    base::Position intended_{{0.0, 0.0, 0.035}}; // intended position at simulated_to_
     std::optional<base::TimePoint> simulated_to_;
     VelocityFilter velocity_;
 };

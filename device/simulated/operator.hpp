@@ -66,7 +66,7 @@ constexpr auto fields_of(base::Tag<InvoluntaryMotion> /*struct*/)
 /// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
 /// times its own stiffness. Spinal and long-loop reflexes take 30 to 60 ms (general knowledge).
 struct Reflex {
-    double gain = 0.0; // 0: none
+    double gain = 0.0; // 0: no reflex
     base::Duration delay{std::chrono::milliseconds{50}};
 
     friend bool operator==(const Reflex&, const Reflex&) = default;
@@ -87,7 +87,7 @@ constexpr auto fields_of(base::Tag<Reflex> /*struct*/)
 /// what is seen 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force
 /// comes back with a time constant of 0.7 s.
 struct Intent {
-    double gain_m_per_ns = 0.010; // 0: none
+    double gain_m_per_ns = 0.010; // 0: no reaction
     double cutoff_hertz = 1.5;
     base::Duration delay{std::chrono::milliseconds{150}};
 
@@ -113,7 +113,7 @@ constexpr auto fields_of(base::Tag<Intent> /*struct*/)
 /// until the task's aim has come as far. Where the task does not mean to touch, the intention goes
 /// back. T1, T2, T3 and T7; chosen, not measured.
 struct Search {
-    double speed_m_per_s = 0.0; // 0: it does not look
+    double speed_m_per_s = 0.0; // 0: the hand does not search
     base::Duration after{std::chrono::milliseconds{400}};
     double reach_m = 0.060;
 
@@ -139,7 +139,7 @@ struct Operator {
     HandImpedance hand{};
     InvoluntaryMotion wander{.amplitude_m = 2e-3, .least_hertz = 0.3, .most_hertz = 0.9};
     InvoluntaryMotion tremor{
-        .amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological
+        .amplitude_m = 1e-4, .least_hertz = 8.0, .most_hertz = 12.0}; // physiological tremor
     /// Standard deviation of the hand's force as a share of that force, 1 to 10 Hz. Isometric
     /// forces have 2 to 4 % (Jones, Hamilton, Wolpert 2002).
     base::Probability force_noise{};

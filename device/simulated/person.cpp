@@ -15,7 +15,7 @@ constexpr double approach_s = 0.8;
 
 // A governor wants a second of rest before a press: half a second more, to come to rest.
 constexpr base::Duration rest_before_press{std::chrono::milliseconds{1500}};
-constexpr base::Duration press_length{std::chrono::milliseconds{400}}; // 0.3 s count
+constexpr base::Duration press_length{std::chrono::milliseconds{400}}; // a press counts after 0.3 s
 constexpr base::Duration press_every{std::chrono::seconds{2}};
 
 } // namespace
@@ -53,7 +53,8 @@ Person::Aim Person::paused(const Aim& aim, base::TimePoint now)
     if (pause_->is_over) {
         if (!pause_->left) {
             pause_->left = now;
-            if (!pause_->since) pause_->place = meant_; // it was over before the hand knew of it
+            // The pause may end before the hand has noticed it.
+            if (!pause_->since) pause_->place = meant_;
         }
         const double u = base::to_seconds(now - *pause_->left) / approach_s;
         if (u >= 1.0) {

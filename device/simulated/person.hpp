@@ -18,7 +18,7 @@ struct Role {
     Task task = Task::p1;
     TaskOptions options{};
     Operator person{};
-    std::shared_ptr<const HandTrace> way{}; // that it means to go instead of the task's
+    std::shared_ptr<const HandTrace> way{}; // path that the person follows instead of the task's
 };
 
 /// A simulated person who plays a part of a task: what the hand means to do at a time, and how it
@@ -40,9 +40,9 @@ public:
     struct Aim {
         Intention intention;
         double force_share = 0.0;
-        std::optional<double> searched_x{}; // where its task has it, as long as it looks there
+        std::optional<double> searched_x{}; // the task's x while the hand searches; else nullopt
     };
-    /// The way to its part begins with the first of these after the cue.
+    /// The hand's intention at `now`. The way to its part begins with the first call after the cue.
     [[nodiscard]] Aim aim(base::TimePoint now);
 
     /// Its perception: the deviation from its intention, and the device's force.
@@ -66,8 +66,8 @@ private:
     struct Pause {
         bool is_over = false;
         base::Position place{};                 // where the hand stays
-        std::optional<base::TimePoint> since{}; // nullopt: with the next aim()
-        std::optional<base::TimePoint> left{};  // after it was over
+        std::optional<base::TimePoint> since{}; // start; nullopt: with the next aim()
+        std::optional<base::TimePoint> left{};  // start of the way back to the part
     };
     [[nodiscard]] Aim aim_of_part(base::TimePoint now);
     [[nodiscard]] Aim paused(const Aim& aim, base::TimePoint now);
@@ -85,7 +85,7 @@ private:
     std::optional<base::TimePoint> cued_at_;
     glm::dvec3 rest_{0.0, 0.0, 0.035}; // where the hand was before its cue
     std::optional<Pause> pause_;
-    base::Position meant_{{0.0, 0.0, 0.035}}; // the last target
+    base::Position meant_{{0.0, 0.0, 0.035}}; // target of the last aim()
 };
 
 } // namespace hapnet::device

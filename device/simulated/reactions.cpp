@@ -24,7 +24,7 @@ Reaction Reactions::to(const Perception& felt, base::TimePoint now, base::Durati
 
 double Reactions::ahead(const Perception& felt, base::TimePoint now, base::Duration elapsed)
 {
-    constexpr double touch_n = 0.05; // less is none
+    constexpr double touch_n = 0.05; // a smaller force is no touch
     const Search& search = person_.search;
     const double step = search.speed_m_per_s * base::to_seconds(elapsed);
     const double advanced = felt.aim_m && aim_m_ ? *felt.aim_m - *aim_m_ : 0.0;
@@ -59,7 +59,7 @@ double Reactions::farther(const Perception& felt, base::TimePoint now, base::Dur
         const double moved = farther_m_ + intent.gain_m_per_ns * seconds * missing_n_;
         farther_m_ = std::clamp(moved, -farther_max_m, farther_max_m);
     } else {
-        farther_m_ *= smoothing_keeps_; // and back to where the script wants it
+        farther_m_ *= smoothing_keeps_; // back to where the script wants the hand
     }
     return farther_m_;
 }

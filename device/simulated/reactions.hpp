@@ -11,9 +11,9 @@ namespace hapnet::device {
 
 /// A hand's perception at a moment.
 struct Perception {
-    glm::dvec3 deviation{0.0};        // of the hand from its intention, metres
-    double pressing_n = 0.0;          // the force with which it presses
-    std::optional<double> wanted_n{}; // with which it wants to; nullopt: it does not care
+    glm::dvec3 deviation{0.0};        // of the hand from its intention, m
+    double pressing_n = 0.0;          // force with which the hand presses
+    std::optional<double> wanted_n{}; // force with which it wants to press; nullopt: any
     /// The task's aim along the direction toward the body, metres, while the hand looks for it;
     /// nullopt: it does not look.
     std::optional<double> aim_m{};
@@ -21,8 +21,8 @@ struct Perception {
 
 /// The reaction of the person.
 struct Reaction {
-    glm::dvec3 force{0.0};  // of the stretch reflex, newtons
-    double farther_m = 0.0; // how much farther it means to press
+    glm::dvec3 force{0.0};  // force of the stretch reflex, N
+    double farther_m = 0.0; // how much farther the hand means to press, m
 };
 
 /// A simulated person's stretch reflex, intent and search. Costs nothing for an operator without
@@ -44,13 +44,13 @@ private:
     Operator person_;
     SignalHistory stretched_;
     SignalHistory missed_;
-    double missing_n_ = 0.0; // smoothed
+    double missing_n_ = 0.0; // smoothed lack of pressing force
     double farther_m_ = 0.0;
-    base::Duration smoothed_over_{}; // what the next one is for
+    base::Duration smoothed_over_{}; // time step that smoothing_keeps_ is for
     double smoothing_keeps_ = 1.0;
     double ahead_m_ = 0.0;
     std::optional<base::TimePoint> untouched_since_;
-    std::optional<double> aim_m_; // of the last read
+    std::optional<double> aim_m_; // Perception::aim_m in the last call
 };
 
 } // namespace hapnet::device

@@ -15,7 +15,7 @@ namespace {
 
 // The scene as a hand must know it: the HIP touches the cube's face 25 mm from its centre.
 constexpr double touching_m = 0.025;
-constexpr double clear_m = 0.055; // from the cube's centre, on the way to the part
+constexpr double clear_m = 0.055; // x from the cube's centre, on the way to the part
 
 // The distance that a hand keeps before it closes in; in T1, that of the idle hand.
 constexpr double clearance_m = 0.008;
@@ -25,7 +25,7 @@ constexpr double near_m = 0.001;
 constexpr double near_after_s = 0.5;
 constexpr double pressing_after_s = 2.0;
 
-constexpr double watching_x_m = 0.105; // P1
+constexpr double watching_x_m = 0.105; // where the hand that watches stays in P1
 
 // T9 and T10 have work for one hand on each side. A third and further ones watch.
 constexpr double watching_y_m = 0.050;
@@ -44,13 +44,13 @@ constexpr double carry_squeeze_n = 4.0 / 7.0;
 // over. The aim goes a little farther than the cube should, because the hands give way by that
 // distance.
 constexpr double lift_aim_m = 0.0525;
-constexpr double lift_begins_s = 6.0; // until then delayed forces have been made up for
+constexpr double lift_begins_s = 6.0; // by then the hands have made up for delayed forces
 constexpr double lift_takes_s = 2.0;
 constexpr double lift_holds_s = 5.0;
 
 // T5: the cube stands before the static one, and both hands press its left face, side by side.
-constexpr double wall_apart_m = 0.006; // along z, from the face's middle
-constexpr double wall_lets_go_s = 5.0; // B; then every 5 s one of them, by turns
+constexpr double wall_apart_m = 0.006; // distance of each hand from the face's middle, along z
+constexpr double wall_lets_go_s = 5.0; // B lets go; then every 5 s one hand, A and B in turn
 constexpr double wall_every_s = 5.0;
 constexpr int wall_rounds = 2;
 constexpr double wall_back_off_m = 0.020;
@@ -67,15 +67,15 @@ constexpr double tap_off_m = 0.004;
 // T8: the distance from the cube's middle at which a hand presses; when the hand turns the other
 // way, on the other side.
 constexpr double turn_beside_m = 0.010;
-constexpr double turn_angle_rad = 0.5; // each way
+constexpr double turn_angle_rad = 0.5; // rotation of the cube each way
 constexpr double turn_squeeze_n = 0.7;
-constexpr double turn_every_s = 6.0; // of which:
+constexpr double turn_every_s = 6.0; // each turn; the three times below lie within it
 constexpr double turn_closes_s = 1.0;
 constexpr double turn_turned_s = 4.0;
-constexpr double turn_opened_s = 5.0; // and then the hand goes over to the other side
+constexpr double turn_opened_s = 5.0; // then the hand goes over to the other side
 
 constexpr double let_go_m = 0.020;
-constexpr double lift_off_m = 0.045; // above the cube, whose upper face is at 20 mm
+constexpr double lift_off_m = 0.045; // clear of the cube, whose upper face is at 20 mm
 constexpr double let_go_s = 0.5;
 
 double path_speed(double seconds)

@@ -19,18 +19,18 @@ namespace hapnet::device {
 struct Intention {
     base::Position target;
     bool gripping = false;
-    std::optional<double> pressing_n{}; // where the task asks for a force
-    bool searching = false;             // where the task means to touch a body that may be away
+    std::optional<double> pressing_n{}; // nullopt: the task asks for no force
+    bool searching = false;             // the task means to touch a body that may be away
 };
 
 /// One hand's part in a task: a pure function of time.
 class Script {
 public:
-    /// `hand` is whose it is: how far it has to aim into the cube to press as it means to.
+    /// `hand`: its stiffness decides how far it has to aim into the cube to press as it means to.
     Script(Task task, const Cue& cue, const TaskOptions& options = {},
            const HandImpedance& hand = {});
 
-    /// Goes this way, of at least one moment, instead of the task's.
+    /// Follows this path, of at least one moment, instead of the task's.
     void follow(std::shared_ptr<const HandTrace> way) { way_ = std::move(way); }
 
     [[nodiscard]] Intention at(base::TimePoint now) const;
@@ -61,7 +61,7 @@ private:
     Cue cue_;
     TaskOptions options_;
     std::array<PressInterval, 6> presses_;
-    double side_; // -1: left of the cube
+    double side_; // -1: left of the cube, +1: right
     double depth_m_per_n_;
     std::shared_ptr<const HandTrace> way_;
 };

@@ -22,9 +22,9 @@ enum class Task : std::uint8_t {
     t4,  // both squeeze the cube, lift it by 50 mm, hold it for 5 s and put it down; twice
     t5,  // both press the cube against the static one, and one lets go suddenly; then the other
     t6,  // A taps the cube at 3 Hz while B rests on its far side
-    t7,  // T3 with two to eight hands: by turns of their ids from the left and from the right
+    t7,  // T3 with two to eight hands: alternately from the left and the right, by their ids
     t8,  // two to eight hands turn the cube between them to and fro, each pushing off its middle
-    t9,  // A puts the second cube on the first, then B the third on those; others watch
+    t9,  // A puts the second cube on the first, then B the third on top; others watch
     t10, // A lifts the screwdriver and hands it to B, who puts it down; others watch
 };
 

@@ -16,11 +16,11 @@ struct TaskOptions {
     /// T7 and T8 the hands on one side together. T3 and T7 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N
     /// (the resting hand), T8 0.7 N.
     std::optional<double> squeeze_n{};
-    double press_depth_m = 0.004;        // T2: each aim within the cube
-    double press_amplitude_m = 0.0035;   // T2: of the presser's aim
-    std::optional<double> press_hertz{}; // T2: instead of 0.5, 1 and 2 Hz
-    double pace = 0.5;                   // T3, T7: of the path; 1 is that of P1 and T1
-    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3, T7: of B behind A
+    double press_depth_m = 0.004;        // T2: how far each hand aims within the cube
+    double press_amplitude_m = 0.0035;   // T2: amplitude of the presser's aim
+    std::optional<double> press_hertz{}; // T2: one frequency instead of 0.5, 1 and 2 Hz
+    double pace = 0.5;                   // T3, T7: speed along the path; 1: as in P1 and T1
+    base::Duration follower_lag{std::chrono::milliseconds{60}}; // T3, T7: delay of B behind A
 
     friend bool operator==(const TaskOptions&, const TaskOptions&) = default;
 };

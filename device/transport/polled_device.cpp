@@ -40,7 +40,7 @@ struct PolledDevice::Shared {
             net::sleep_until(now + period);
         }
         for (int i = 0; i < silent_exchanges; ++i) hear({});
-        exchange.reset(); // the destructor's caller may open the device again
+        exchange.reset(); // before done: the destructor's caller may open the device again
         done.release();
     }
 

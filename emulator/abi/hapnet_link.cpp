@@ -197,7 +197,7 @@ struct hapnet_link {
     EmulatedPath path;
     std::deque<Untouched> untouched;
     std::optional<Leaving> next;
-    std::string fate; // of the packet that was pushed last
+    std::string fate; // fate of the packet that was pushed last
 };
 
 namespace {

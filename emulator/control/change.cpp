@@ -19,7 +19,7 @@ Scripts::Scripts(const Profile& profile)
         own_.emplace(path, std::make_shared<const Script>(profile_of(profile, path)));
     };
     for (const std::string& path : mentioned_) add(path);
-    for (const Flow& flow : profile.flows) add(flow_path("", flow.name)); // unless it is there
+    for (const Flow& flow : profile.flows) add(flow_path("", flow.name)); // if it is missing
 }
 
 const std::shared_ptr<const Script>& Scripts::of(std::string_view path) const

@@ -51,9 +51,9 @@ struct NextNumbers {
 struct Effect {
     std::uint64_t generation = 0;
     bool has_changed = false;
-    base::TimePoint at{}; // since when
+    base::TimePoint at{}; // time from which it holds
     base::Duration elapsed{};
-    std::vector<NextNumbers> next; // of each path: for these it holds
+    std::vector<NextNumbers> next; // first datagrams of each path for which it holds
 };
 
 /// Tells all paths at once, in one step of the emulation's work; see Paths::apply(). The calling

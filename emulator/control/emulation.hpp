@@ -20,7 +20,7 @@ namespace hapnet::emulator {
 /// control; only what looks at the paths or changes them is done by `work`, a step at a time,
 /// between two datagrams.
 struct Emulation {
-    AllPaths paths; // in steps of `work` alone, but for names()
+    AllPaths paths; // used by steps of `work` only, except names()
     /// The statistics as one JSON object; looks by steps of `work`.
     std::function<nlohmann::ordered_json(const control::DoWork& work)> statistics;
     /// Ends the run, as a signal does. In a step of `work`.

@@ -18,7 +18,7 @@ constexpr std::array directions{Direction::up, Direction::down};
 
 control::FrameSource Frames::watch(AllPaths& paths, const control::DoWork& work)
 {
-    const Look first = share_out(paths, work); // what left before belongs to the others
+    const Look first = share_out(paths, work); // earlier traffic belongs to other watches
     auto watch = std::make_shared<Watch>();
     for (const SeenPath& one : first.paths) {
         Ways& ways = watch->paths[one.name];

@@ -34,7 +34,7 @@ public:
 private:
     /// One direction of a path at a look.
     struct Seen {
-        Pulse pulse; // since the look before
+        Pulse pulse; // traffic since the previous look
         Counters counters;
     };
     struct SeenPath {
@@ -46,13 +46,13 @@ private:
         base::Duration elapsed{};
         std::uint64_t generation = 0;
         std::size_t all_paths = 0;
-        std::vector<SeenPath> paths; // those that a frame has room for
+        std::vector<SeenPath> paths; // as many as a frame has room for
     };
 
     /// One direction of a path, as a watch sees it.
     struct Way {
-        Pulse pulse;       // since its last frame
-        Counters counters; // as they were at its last frame
+        Pulse pulse;       // traffic since the watch's last frame
+        Counters counters; // values at the watch's last frame
     };
     using Ways = std::array<Way, 2>;
     struct Watch {

@@ -9,7 +9,7 @@ namespace hapnet::emulator {
 Moment moment_of(Emulation& emulation, base::TimePoint now)
 {
     Moment moment;
-    moment.deciders.reserve(256); // here, and not by whoever relays
+    moment.deciders.reserve(256); // allocated here, not by the thread that relays
     emulation.work([&] {
         AllPaths& paths = emulation.paths;
         paths.catch_up(now);

@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 /// A copy of the director of a path.
 struct Decider {
     std::string name;
-    bool is_there = false; // the path; false: it is still to come
+    bool is_there = false; // the path exists; false: it is still to come
     Director director;
 };
 

@@ -104,8 +104,7 @@ base::Result<Request> parse_request(std::string_view line, std::optional<base::D
     constexpr std::array<std::string_view, 11> commands{"show",  "set",   "apply",   "diff",
                                                         "reset", "stats", "metrics", "wait",
                                                         "watch", "keep",  "stop"};
-    const auto json =
-        control::parse_object(line); // settings count in the order in which they stand
+    const auto json = control::parse_object(line); // keeps the order of the settings
     if (!json) return tl::unexpected{json.error()};
     Members members{*json};
     const std::string command = members.text("command");

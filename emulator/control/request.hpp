@@ -31,14 +31,14 @@ inline constexpr std::size_t sent_bytes_max = std::size_t{1} << 20;
 /// A profile as it was sent, the name of a built-in one, or a sentence of tc-netem.
 struct ProfileText {
     std::string toml;
-    std::string file;                    // what messages call it
-    std::optional<std::string> preset{}; // instead of both
-    std::optional<std::string> netem{};  // instead of all
+    std::string file;                    // name of the file in messages
+    std::optional<std::string> preset{}; // instead of `toml` and `file`
+    std::optional<std::string> netem{};  // instead of the other three
 };
 
 struct ShowRequest {};
 struct SetRequest {
-    std::vector<SettingText> settings; // at least one
+    std::vector<SettingText> settings; // at least one setting
     std::optional<base::Duration> lasting;
     SentFiles files{};
 };

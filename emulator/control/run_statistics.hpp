@@ -137,7 +137,7 @@ constexpr auto fields_of(base::Tag<ClientReport>)
 struct LinkEnds {
     std::optional<std::string> listen_1{};
     std::optional<std::string> listen_2{};
-    std::optional<std::optional<std::string>> end_1{}; // the inner: not known yet
+    std::optional<std::optional<std::string>> end_1{}; // inner nullopt: not known yet
     std::optional<std::optional<std::string>> end_2{};
 };
 constexpr auto fields_of(base::Tag<LinkEnds>)
@@ -269,7 +269,7 @@ struct EndsReport {
     std::optional<InterfaceReports> frames{};
     std::optional<std::string> listen_a{};
     std::optional<std::string> listen_b{};
-    std::optional<std::optional<std::string>> a{}; // the inner: not known yet
+    std::optional<std::optional<std::string>> a{}; // inner nullopt: not known yet
     std::optional<std::optional<std::string>> b{};
     std::optional<std::uint64_t> strangers{};
     std::optional<std::uint64_t> overflowed{};

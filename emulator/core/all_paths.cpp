@@ -77,7 +77,8 @@ std::vector<Paths::Decider> AllPaths::deciders() const
 {
     std::vector<Paths::Decider> all;
     for (const Paths::Named* one : this->all()) all.push_back({one->name, &one->path->director()});
-    for (const Paths::Decider& one : parts_.front()->deciders()) { // those that are nowhere
+    // Paths that are not there in any part.
+    for (const Paths::Decider& one : parts_.front()->deciders()) {
         if (std::ranges::find(all, one.name, &Paths::Decider::name) == all.end()) {
             all.push_back(one);
         }

@@ -240,7 +240,7 @@ private:
     /// True if the line will not be free by then for what arrives now.
     [[nodiscard]] bool is_busy_beyond(base::TimePoint then) const
     {
-        constexpr std::size_t most = 1U << 30U; // more is beyond any time that a person writes
+        constexpr std::size_t most = 1U << 30U; // more bytes count as beyond any time
         if (queue_.empty()) return false;
         if (waiting_bytes_ > most) return true;
         const Work work = work_ + waiting_bytes_ * work_per_byte;
@@ -268,7 +268,7 @@ private:
     void plan(Work spare)
     {
         spare_ = spare;
-        next_sent_ = since_; // with no work left, or without a rate, which lets all leave at once
+        next_sent_ = since_; // without work or without a rate it leaves at once
         if (work_ == 0 || !is_on_) return;
         if (rate_.trace) return plan_by_trace();
         const Work rate = rate_.bits_per_second;
@@ -310,17 +310,18 @@ private:
     bool has_regimes_ = false;
     QueueManager manager_;
     bool is_managed_;
-    Ring<Queued> queue_;              // the front is being sent, or leaves next, and unsent
-    std::unique_ptr<FairQueue> fair_; // what waits behind these, if each flow has a queue
-    std::deque<Queued> evicted_;      // had to make room
+    /// Its front is being sent, or is the next to leave without being sent.
+    Ring<Queued> queue_;
+    std::unique_ptr<FairQueue> fair_; // datagrams behind queue_, if each flow has a queue
+    std::deque<Queued> evicted_;      // datagrams dropped to make room, not handed on yet
     std::size_t waiting_bytes_ = 0;
-    Work work_ = 0; // of the front at since_
+    Work work_ = 0; // rest of the front's work at since_
     base::TimePoint since_{};
     base::TimePoint begun_{};                  // when the line began to send the front
-    std::optional<base::TimePoint> next_sent_; // of the front
-    Work spare_ = 0;                           // at that moment
-    Credit credit_{};                          // when the last one had left
-    base::TimePoint start_;                    // of the run
+    std::optional<base::TimePoint> next_sent_; // time when the front will have left
+    Work spare_ = 0;                           // work that the line could do besides, at next_sent_
+    Credit credit_{};                          // the line's credit when the last datagram had left
+    base::TimePoint start_;                    // start of the run
     std::optional<base::TimePoint> trace_start_;
 };
 

@@ -24,12 +24,12 @@ constexpr auto names_of(base::Tag<ChangeCause>)
 /// A change of the conditions of a path while it runs.
 struct ConditionChange {
     std::uint64_t generation = 0;
-    base::Duration elapsed{};         // since the start of the run
+    base::Duration elapsed{};         // time since the start of the run
     std::uint64_t effective_up = 0;   // number of the first datagram for which it holds
-    std::uint64_t effective_down = 0; // the same of the other direction
+    std::uint64_t effective_down = 0; // the corresponding number in direction down
     ChangeCause by = ChangeCause::hand;
     std::shared_ptr<const Path> from{}; // what held before; never null
-    std::shared_ptr<const Path> to{};   // and from then on
+    std::shared_ptr<const Path> to{};   // what holds from then on; never null
 
     /// The settings that changed, as they are from then on.
     [[nodiscard]] Patch patch(Direction direction) const;
@@ -54,7 +54,7 @@ private:
     std::size_t room_;
     std::vector<ConditionChange> entries_;
     std::uint64_t omitted_ = 0;
-    std::uint8_t ramp_entries_ = 0; // how many of the last entries are of the ramp that goes on
+    std::uint8_t ramp_entries_ = 0; // last entries that belong to the ramp in progress: at most 2
 };
 
 } // namespace hapnet::emulator

@@ -22,7 +22,7 @@ public:
     /// The place of a client that is known; it has sent at `at`.
     [[nodiscard]] std::optional<std::size_t> find(const Address& address, base::TimePoint at)
     {
-        for (std::size_t i = 0; i < places_.size(); ++i) { // mostly the one that was last
+        for (std::size_t i = 0; i < places_.size(); ++i) { // begins with the one found last
             const std::size_t place = (last_ + i) % places_.size();
             auto& client = places_[place];
             if (!client || client->address != address) continue;

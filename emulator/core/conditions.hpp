@@ -119,10 +119,10 @@ struct Rate {
     static constexpr std::size_t burst_bytes_most = std::size_t{1} << 30;
 
     std::uint64_t bits_per_second = 0;
-    std::size_t overhead_bytes = 28;        // added to each payload: IPv4 and UDP
-    std::size_t queue_bytes_max = 64 << 10; // waiting, with overhead, besides the one being sent
+    std::size_t overhead_bytes = 28;        // added to each payload; 28: IPv4 and UDP
+    std::size_t queue_bytes_max = 64 << 10; // limit without the one being sent; with overhead
     std::optional<RateTraceLaw> trace{};    // instead of bits_per_second
-    std::size_t burst_bytes = 0;            // with overhead; full when the run begins
+    std::size_t burst_bytes = 0; // size of the token bucket, with overhead; it begins full
 
     [[nodiscard]] bool is_on() const { return bits_per_second > 0 || trace.has_value(); }
 
@@ -157,7 +157,7 @@ struct Regime;
 /// The states of a link between which it changes by itself: two to four, or none.
 struct Regimes {
     base::SharedVector<Regime> all{};
-    bool are_together = false; // the other direction is in the same one at the same time
+    bool are_together = false; // both directions always have the same regime
 
     [[nodiscard]] bool empty() const;
 

@@ -37,12 +37,12 @@ struct Headers {
 struct Datagram {
     Slab::Slot slot = Slab::no_slot; // no_slot: the bytes are the caller's own
     bool is_copy = false;
-    std::uint8_t envelope_bytes = 0; // at the beginning of `bytes`: carried, and nothing else
-    base::IpMarks marks{};           // carried; the law of a queue may add CE
-    std::uint64_t number = 0; // of the datagram in its direction, from 0; a copy has its original's
+    std::uint8_t envelope_bytes = 0; // header at the start of `bytes`: not counted, not changed
+    base::IpMarks marks{};           // passed on; the law of a queue may add CE
+    std::uint64_t number = 0; // counts its direction from 0; a copy has its original's number
     base::TimePoint arrival{};
-    base::TimePoint due{};              // never leaves before
-    std::span<const std::byte> bytes{}; // stay where they are until it has left
+    base::TimePoint due{};              // earliest time at which it leaves
+    std::span<const std::byte> bytes{}; // valid until the datagram has left
 
     /// The size of the datagram itself, without its envelope.
     [[nodiscard]] std::size_t size() const { return bytes.size() - envelope_bytes; }
@@ -52,13 +52,15 @@ class Link;
 
 /// A datagram whose time of leaving is not known yet.
 struct Queued {
-    Datagram datagram; // due: when its last bit left the bottleneck, or its own time without others
-    Fate fate;         // dropped: it only takes time in the bottleneck, its bytes are gone
-    std::size_t line_bytes = 0;         // that the bottleneck has to send
-    base::TimePoint begun{};            // when it began to send it
-    bool is_marked = false;             // by the law of the queue
-    std::optional<DropCause> dropped{}; // by the queue, instead of being sent
-    Link* owner = nullptr; // that it goes on through; null: the one whose bottleneck this is
+    /// `due` is when its last bit left the bottleneck. While displaced, it is the time at which the
+    /// datagram would leave on its own.
+    Datagram datagram;
+    Fate fate;                  // dropped: it only takes time in the bottleneck, its bytes are gone
+    std::size_t line_bytes = 0; // bytes that the bottleneck has to send
+    base::TimePoint begun{};    // when the bottleneck began to send it
+    bool is_marked = false;     // marked by the law of the queue
+    std::optional<DropCause> dropped{}; // cause, if the queue dropped it instead of sending it
+    Link* owner = nullptr; // link that it goes on through; null: the bottleneck's owner
 };
 
 } // namespace hapnet::emulator

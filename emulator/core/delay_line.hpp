@@ -52,7 +52,7 @@ public:
 private:
     struct HeapEntry {
         Datagram datagram;
-        std::uint64_t rank = 0; // of its push
+        std::uint64_t rank = 0; // number of its push, among those that went to the heap
     };
     static bool leaves_after(const HeapEntry& a, const HeapEntry& b);
     /// True if the datagrams are due in the order of arrival, as a constant delay leaves them.
@@ -64,9 +64,9 @@ private:
     std::size_t datagrams_max_;
     std::uint64_t pushed_ = 0;
     Ring<Datagram> in_turn_; // due in the order in which they came: a constant delay needs no heap
-    std::vector<HeapEntry> heap_;        // due before the last of those when they came
-    Ring<Datagram> sorted_;              // these wait for ...
-    std::vector<base::TimePoint> times_; // ... these, a heap
+    std::vector<HeapEntry> heap_; // datagrams due before the last one in in_turn_ when pushed
+    Ring<Datagram> sorted_;       // datagrams of push_sorted(), in their order
+    std::vector<base::TimePoint> times_; // due times of push_sorted(), a heap
 };
 
 } // namespace hapnet::emulator

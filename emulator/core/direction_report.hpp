@@ -77,7 +77,7 @@ constexpr auto fields_of(base::Tag<ReorderReport>)
 /// The shape of a stream, as statistics tell it.
 struct StreamShape {
     StreamReport measured;
-    std::optional<Distribution> distribution; // of the delays
+    std::optional<Distribution> distribution; // distribution of the delays
     std::optional<std::vector<StretchReport>> over_time;
 
     [[nodiscard]] std::optional<DelayReport> delay() const;
@@ -156,7 +156,7 @@ regime_reports_of(const Regimes& regimes, const std::vector<RegimeCourse>& cours
 /// The data that a run has about one direction.
 struct DirectionReport {
     const Statistics* statistics = nullptr;
-    const StreamTotals* stream = nullptr; // nullptr: of the sum of several paths
+    const StreamTotals* stream = nullptr; // nullptr: this is the sum of several paths
     std::uint64_t strangers = 0;
     std::uint64_t overflowed = 0;
     std::uint64_t unreachable = 0;

@@ -224,7 +224,7 @@ Profile Director::remaining() const
 {
     const Profile& all = script_->profile();
     Profile profile{all.name, started_with_->profile().seed, *path_, {}, {}, all.checks};
-    Override by_hand; // as far as no step has taken over yet
+    Override by_hand; // settings that no step has replaced yet
     for (const auto& one : overrides_) {
         by_hand.up = merged(std::move(by_hand.up), one->up);
         by_hand.down = merged(std::move(by_hand.down), one->down);

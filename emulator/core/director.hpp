@@ -24,7 +24,7 @@ namespace hapnet::emulator {
 struct Set {
     Patch up;
     Patch down;
-    std::optional<base::Duration> lasting{}; // more than 0
+    std::optional<base::Duration> lasting{}; // > 0; nullopt: for good
 };
 
 /// Applies another profile. Its timeline counts from now, and settings made by hand are gone.

@@ -21,7 +21,7 @@ public:
     /// A place that is told apart from the others.
     class Place {
     public:
-        Place() = default; // of none: marking it does nothing
+        Place() = default; // belongs to no path: marking it does nothing
         Place(DueTimes& all, std::size_t number) : all_{&all}, number_{number} {}
 
         /// Marks this place, because its due time may have changed.

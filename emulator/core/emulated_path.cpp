@@ -53,7 +53,7 @@ EmulatedPath::EmulatedPath(Director director, const Setup& setup, const std::sha
 
 base::Result<void> EmulatedPath::apply(const Command& command, base::TimePoint now, ChangeCause by)
 {
-    advance(now); // what the timeline changes is its own
+    advance(now); // changes of the timeline are noted on their own
     const auto generation = director_.generation();
     auto done = director_.apply(command, now);
     if (director_.generation() != generation) enact(now, by);

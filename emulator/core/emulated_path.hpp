@@ -29,14 +29,14 @@ class EmulatedPath {
 public:
     struct Setup {
         base::Seed seed{1};
-        base::TimePoint start{};               // time 0 of all that depends on time
-        QueueLimits limits{};                  // of each direction
-        std::shared_ptr<Slab> slab{};          // null: one for both, as large as the limits say
+        base::TimePoint start{};               // time 0 of everything that depends on time
+        QueueLimits limits{};                  // limits that each direction has
+        std::shared_ptr<Slab> slab{};          // null: the path makes one for both directions
         std::shared_ptr<const Fates> replay{}; // null: fates are drawn
         StreamDetail stream_detail = StreamDetail::totals;
-        std::string name{}; // where there are several; see path_name.hpp
-        std::size_t changes_max = ChangeLog::entries_max; // that are kept
-        DueTimes::Place place{}; // where it says that next_due() may have changed
+        std::string name{}; // its name if a run has several paths; see path_name.hpp
+        std::size_t changes_max = ChangeLog::entries_max; // changes that changes() keeps
+        DueTimes::Place place{};                          // marked when next_due() may have changed
     };
 
     EmulatedPath(const Profile& profile, const Setup& setup)
@@ -144,10 +144,10 @@ private:
     Director director_;
     DueTimes::Place place_;
     ChangeLog changes_;
-    std::shared_ptr<const Path> enacted_; // what the links do
+    std::shared_ptr<const Path> enacted_; // conditions that the links apply now
     Link up_;
     Link down_;
-    std::unique_ptr<Branches> branches_; // null: all traffic is its own
+    std::unique_ptr<Branches> branches_; // the paths of the flows; null: no flows
 };
 
 } // namespace hapnet::emulator

@@ -15,27 +15,29 @@ namespace hapnet::emulator {
 
 /// Why a datagram that was received did not leave.
 enum class DropCause : std::uint8_t {
-    random_loss,      // the configured losses, by law
-    block_loss,       //
-    periodic_loss,    //
-    burst_loss,       //
-    gilbert_elliott,  //
-    four_state,       //
-    listed_loss,      //
-    pattern_loss,     //
-    trace_loss,       //
-    outage,           //
-    mtu,              // larger than the configured path carries
-    rate_queue_full,  // the queue of the configured rate
-    rate_queue_law,   // the law of that queue, such as CoDel
+    // Configured losses, by the law that took the datagram.
+    random_loss,
+    block_loss,
+    periodic_loss,
+    burst_loss,
+    gilbert_elliott,
+    four_state,
+    listed_loss,
+    pattern_loss,
+    trace_loss,
+    outage,
+    // Other causes.
+    mtu,              // larger than the configured limit
+    rate_queue_full,  // no room in the queue of the configured rate
+    rate_queue_law,   // dropped by the law of that queue, such as CoDel
     replay_ended,     // more datagrams than the fates that are replayed
-    queue_full,       // our own bound: too much in flight
-    no_destination,   // the other side was not known yet when it arrived
-    no_route,         // the system knew no way to the other side
-    refused,          // the other side's machine said that nobody listens there
-    too_big,          // larger than the way out carries
-    send_buffer_full, // the system's send buffer
-    send_failed,      // any other refusal of the system
+    queue_full,       // the emulator's own bound: too much in flight
+    no_destination,   // the other side was not known yet
+    no_route,         // the system had no route to the other side
+    refused,          // the other machine answered that no program listens there
+    too_big,          // too large for the outgoing interface or route
+    send_buffer_full, // the system's send buffer had no room
+    send_failed,      // the system refused to send for another reason
 };
 
 /// "random_loss": the key in statistics.
@@ -81,7 +83,7 @@ enum class LossState : std::uint8_t {
     none, // the law has no states
     good,
     bad,
-    received_in_gap, // the four states
+    received_in_gap, // this and the next three: states of the law four_state
     received_in_burst,
     lost_in_burst,
     lost_in_gap,
@@ -101,15 +103,15 @@ inline constexpr std::size_t loss_laws_max = 8;
 /// the arrivals; what the queues make of it is not part of it. A datagram that all laws deliver is
 /// still dropped while no program is on the other side: no_destination.
 struct Fate {
-    std::optional<DropCause> drop{}; // nullopt: it is delivered
-    std::uint8_t regime = 0;         // that it met, counted from 1; 0: there are none
+    std::optional<DropCause> drop{}; // nullopt: the datagram is delivered
+    std::uint8_t regime = 0;         // regime that it met, counted from 1; 0: no regimes
     // Properties of a delivered datagram. A dropped one keeps these defaults.
-    base::Duration delay{};                     // before queues and the order policy; not negative
+    base::Duration delay{};                     // without queues and the order policy; >= 0
     std::optional<base::Duration> copy_after{}; // a copy leaves this long after the original
     Flips flips{};
     Displacement displacement{};
 
-    std::array<LossState, loss_laws_max> states{}; // of the laws, in the order of their list
+    std::array<LossState, loss_laws_max> states{}; // one for each law of loss, in their order
 
     /// True if the conditions, or a replay, drop it.
     [[nodiscard]] bool is_lost() const { return drop && *drop != DropCause::no_destination; }

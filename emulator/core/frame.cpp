@@ -95,7 +95,7 @@ private:
     std::uint32_t hash_ = 2'166'136'261U;
 };
 
-constexpr unsigned ipv4_offset_and_more = 0x3fff; // not 0: a fragment
+constexpr unsigned ipv4_offset_and_more = 0x3fff; // nonzero: the packet is a fragment
 
 bool has_ports(std::uint8_t protocol) { return protocol == ip_tcp || protocol == ip_udp; }
 
@@ -119,7 +119,7 @@ std::uint16_t folded(std::uint64_t sum)
 struct Segment {
     std::uint8_t protocol = 0;
     std::span<std::byte> bytes{};
-    std::uint64_t pseudo_header = 0; // the sum of it
+    std::uint64_t pseudo_header = 0; // sum of the words of its addresses
     bool is_v4 = false;
 };
 
@@ -140,7 +140,7 @@ void fix_segment(const Segment& segment)
     }();
     if (!place || segment.bytes.size() < place->bytes_min) return;
     const bool is_udp = segment.protocol == ip_udp;
-    if (is_udp && segment.is_v4 && at16(segment.bytes, place->at) == 0) return; // has none
+    if (is_udp && segment.is_v4 && at16(segment.bytes, place->at) == 0) return; // no checksum
     put16(segment.bytes, place->at, 0);
     const bool has_pseudo_header = segment.protocol != ip_icmp;
     const auto checksum = folded(

@@ -15,7 +15,7 @@ namespace hapnet::emulator {
 /// The kind of payload of an Ethernet frame.
 enum class FrameKind : std::uint8_t {
     ip,         // IPv4 or IPv6, also with VLAN tags
-    neighbours, // ARP, or the part of ICMPv6 that takes its place: who is where
+    neighbours, // ARP, or neighbour discovery of ICMPv6
     other,
 };
 
@@ -24,9 +24,9 @@ using MacAddress = std::array<std::byte, 6>;
 /// An Ethernet frame, without its checksum, as far as it has to be known to pass it on.
 struct Frame {
     FrameKind kind = FrameKind::other;
-    std::uint8_t header_bytes = 0; // Ethernet's, with VLAN tags
+    std::uint8_t header_bytes = 0; // Ethernet header, with VLAN tags
     MacAddress source{};
-    base::IpMarks marks{}; // of an IP packet with a whole header
+    base::IpMarks marks{}; // set if it is an IP packet with a whole header
 
     static constexpr std::size_t header_bytes_min = 14;
     static constexpr std::size_t vlan_tag_bytes = 4;

@@ -326,7 +326,7 @@ void Link::on_passed(const Queued& passed)
         statistics_.sojourn.add(passed.begun - passed.datagram.arrival);
         stream_statistics_.on_begun(passed.datagram.arrival, passed.begun);
     }
-    if (passed.fate.drop) return; // it was counted when it arrived
+    if (passed.fate.drop) return; // the drop was counted at its arrival
     if (passed.dropped) {
         note_drop(*passed.dropped, passed.datagram.due);
         release(passed.datagram);

@@ -34,8 +34,8 @@ namespace hapnet::emulator {
 /// The outcome of a datagram's arrival.
 struct Admission {
     std::uint64_t number = 0;
-    Fate fate;                     // as it was drawn, or replayed
-    std::optional<DropCause> drop; // the fate's, or because a queue was full
+    Fate fate;                     // the fate as it was drawn, or replayed
+    std::optional<DropCause> drop; // the cause in `fate`, or why a queue refused it
     /// The datagram itself when nothing holds it: no delay, no queue. Send it before
     /// anything that is polled from now on.
     std::optional<Datagram> departure;
@@ -51,11 +51,11 @@ public:
         Direction direction = Direction::up;
         base::TimePoint start{}; // time 0 of windows and periods
         QueueLimits limits{};
-        std::shared_ptr<Slab> slab{};   // for the bytes in flight; null: one of its own
-        std::optional<Replay> replay{}; // gives the fates instead of the conditions
+        std::shared_ptr<Slab> slab{};   // for the bytes in flight; null: the link makes one
+        std::optional<Replay> replay{}; // source of the fates; nullopt: they are drawn
         StreamDetail stream_detail = StreamDetail::totals;
-        std::string name{};      // of the path, where there are several: "1-2"
-        DueTimes::Place place{}; // where it says that another link may have changed its deadline
+        std::string name{};      // the path's name, "1-2"; empty if there is only one
+        DueTimes::Place place{}; // marked when another link changes this link's deadline
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
@@ -63,7 +63,7 @@ public:
     Link(std::shared_ptr<const Conditions> conditions, const Setup& setup);
     Link(Link&&) noexcept;
     Link& operator=(Link&&) noexcept;
-    Link(const Link&) = delete; // two would use each other's slots
+    Link(const Link&) = delete; // a copy would share the slots of the original
     Link& operator=(const Link&) = delete;
     ~Link();
 
@@ -148,19 +148,19 @@ private:
     Setup setup_;
     Pipeline pipeline_;
     std::shared_ptr<Slab> slab_;
-    std::size_t held_datagrams_ = 0; // in the slab
-    std::size_t held_bytes_ = 0;     // of the slab
+    std::size_t held_datagrams_ = 0; // datagrams in the slab
+    std::size_t held_bytes_ = 0;     // bytes of the slab that they take
     DelayLine line_;
     std::shared_ptr<Bottleneck> bottleneck_; // never null
-    Link* through_ = nullptr;                // whose bottleneck it is; null: the own one
-    std::unique_ptr<RegimeChain> rates_;     // of the bottleneck; null: no regime sets a rate
-    std::vector<Queued> displaced_; // until a later datagram is scheduled (Reordering by places)
+    Link* through_ = nullptr;                // link that owns the bottleneck; null: this one
+    std::unique_ptr<RegimeChain> rates_;     // regimes of the bottleneck; null: none sets a rate
+    std::vector<Queued> displaced_;          // wait for later datagrams (Reordering by places)
     base::TimePoint last_arrival_;
     base::TimePoint last_due_ = base::TimePoint::min();
-    base::NextExpected expected_; // to leave; copies count, too
+    base::NextExpected expected_; // number of the next datagram in order; copies count, too
     Statistics statistics_;
     StreamStatistics stream_statistics_;
-    std::optional<Pulse> pulse_; // nullopt: nobody has asked for it
+    std::optional<Pulse> pulse_; // nullopt: not asked for
 };
 
 } // namespace hapnet::emulator

@@ -18,16 +18,16 @@ namespace hapnet::emulator {
 struct Stretch {
     std::uint64_t received = 0;
     std::uint64_t dropped = 0;
-    std::uint64_t bytes_out = 0; // payload of what left
+    std::uint64_t bytes_out = 0; // payload bytes that left
     Pulse left;
-    std::optional<base::Duration> queue_max; // of what the line of a rate began to send
+    std::optional<base::Duration> queue_max; // longest wait in the queue of a rate; nullopt: none
 
     void add(const Stretch& later);
 };
 
 /// A stretch as statistics tell it.
 struct StretchReport {
-    base::Duration from{}; // since the start of the run
+    base::Duration from{}; // time since the start of the run
     base::Duration length{};
     Stretch stretch;
 };
@@ -90,7 +90,7 @@ private:
     base::TimePoint start_;
     base::Duration length_ = shortest;
     std::size_t current_ = 0;
-    base::TimePoint begin_; // of the current one
+    base::TimePoint begin_; // start of the current stretch
     base::TimePoint end_;
 };
 

@@ -11,9 +11,9 @@ namespace hapnet::emulator {
 
 /// Facts of a datagram that an impairment may use.
 struct Packet {
-    std::uint64_t number = 0; // counts what arrived in its direction, from 0
-    std::size_t bytes = 0;    // of payload
-    base::Duration at{};      // when it arrived, since the run began; not less than the one before
+    std::uint64_t number = 0; // counts the arrivals in its direction, from 0
+    std::size_t bytes = 0;    // payload bytes
+    base::Duration at{};      // arrival since the run began; never less than that before
 };
 
 } // namespace hapnet::emulator

@@ -85,11 +85,11 @@ struct Way {
 /// The paths of a run; by default it has only one.
 struct PathNames {
     std::vector<std::string> links{};
-    bool clients = false;                    // whoever comes
-    bool any = false;                        // it is not known yet
-    std::vector<std::string> flows{};        // on each of them
-    std::vector<std::string> without_rate{}; // those that share that of the rest
-    std::vector<std::string> untouched{};    // those that have no conditions
+    bool clients = false;                    // there may be paths of clients
+    bool any = false;                        // the paths are not known yet: every name is valid
+    std::vector<std::string> flows{};        // flows that each path has
+    std::vector<std::string> without_rate{}; // flows that share the rate of the rest
+    std::vector<std::string> untouched{};    // flows that have no conditions
     std::string without_links{};             // why no links exist; "": without a reason
 
     [[nodiscard]] bool contains(std::string_view path) const;

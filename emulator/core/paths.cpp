@@ -136,7 +136,7 @@ EmulatedPath& Paths::add_one(const std::string& name)
                               .changes_max = setup_.changes_max,
                               .place = due_times_->add()};
     if (setup_.replay) {
-        static const Fates none; // whatever comes is dropped as replay_ended
+        static const Fates none; // without fates every datagram is dropped: replay_ended
         const auto found = setup_.replay->find(name);
         setup.replay = {setup_.replay, found == setup_.replay->end() ? &none : &found->second};
     }
@@ -238,7 +238,7 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     if (auto expected = expect(mentioned); !expected) return expected;
     // First what each becomes, and only when none refuses, all of it at once.
     Twins twins;
-    std::deque<Director> own; // of those that the command speaks of
+    std::deque<Director> own; // directors of the paths that the command names
     std::vector<const Director*> next;
     std::optional<Command> last;
     for (const auto& [name, director] : deciders()) {

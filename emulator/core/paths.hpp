@@ -32,12 +32,12 @@ public:
     struct Setup {
         base::Seed seed{1};
         base::TimePoint start{};
-        QueueLimits limits{};                         // of each direction of each path
-        std::shared_ptr<Slab> slab{};                 // that all share; null: one for each
+        QueueLimits limits{};                         // limits for each direction of each path
+        std::shared_ptr<Slab> slab{};                 // all paths share it; null: each has its own
         std::shared_ptr<const FatesOfPaths> replay{}; // null: fates are drawn
-        bool takes_newcomers = false;                 // paths come later, and have names of clients
+        bool takes_newcomers = false;                 // paths of clients come and go during the run
         StreamDetail stream_detail = StreamDetail::totals;
-        std::size_t changes_max = ChangeLog::entries_max; // that each of them keeps
+        std::size_t changes_max = ChangeLog::entries_max; // changes that each path keeps
         /// Names of paths that another thread has: what is decided for them counts here, too.
         std::vector<std::string> elsewhere{};
     };
@@ -115,8 +115,9 @@ public:
     /// The director of a path. Paths that are not there are included as far as something is known
     /// of them.
     struct Decider {
-        std::string_view name; // empty, or of a flow alone: of all that come and have nothing of
-                               // their own
+        /// Empty, or a flow without a path: this director is for all paths to come that have no
+        /// settings of their own.
+        std::string_view name;
         const Director* director = nullptr;
     };
     [[nodiscard]] std::vector<Decider> deciders() const;
@@ -152,14 +153,16 @@ private:
     Profile profile_;
     Setup setup_;
     std::shared_ptr<const FlowFilters> filters_; // null: there are no flows
-    std::vector<Absent> beginnings_;   // of those of which the profile says nothing of their own,
-                                       // by common_name(), that of the rest last
-    std::vector<std::string> said_of_; // the others
-    std::vector<Absent> newcomers_;    // what holds for whoever comes, likewise; or none
-    std::vector<Absent> absent_;       // what holds for some of them, or elsewhere
-    std::vector<std::string> mentioned_;
-    std::unique_ptr<DueTimes> due_times_ = std::make_unique<DueTimes>(); // the paths mark it
-    std::vector<EmulatedPath*> by_number_;                               // null where there is none
+    /// Directors as at the start, for paths that the profile does not name: one for each flow and,
+    /// last, one for the rest, by common_name().
+    std::vector<Absent> beginnings_;
+    std::vector<std::string> said_of_; // paths that the profile names
+    /// The present directors for paths of clients to come, by common_name(); empty if none come.
+    std::vector<Absent> newcomers_;
+    std::vector<Absent> absent_; // directors of named paths that are not there, or in another part
+    std::vector<std::string> mentioned_; // names of clients' paths that have settings of their own
+    std::unique_ptr<DueTimes> due_times_ = std::make_unique<DueTimes>(); // marked by the paths
+    std::vector<EmulatedPath*> by_number_; // null: no path has this number
     std::vector<Named> paths_;
     base::TimePoint now_;
     std::uint64_t generation_ = 1;

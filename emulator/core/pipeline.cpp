@@ -30,7 +30,7 @@ bool is_drawn(base::Probability share, const base::RandomStream& stream, std::ui
 struct Pipeline::InRegimes {
     Regimes said;
     RegimeChain chain;
-    std::vector<Pipeline> stages; // of each regime: what it sets, and nothing else
+    std::vector<Pipeline> stages; // one for each regime: only what the regime sets
 };
 
 Pipeline::~Pipeline() = default;

@@ -105,8 +105,8 @@ private:
     [[nodiscard]] base::Duration draw_copy(std::uint64_t number) const;
 
     base::Seed seed_;
-    std::string way_;       // what the names of its streams begin with
-    std::string both_ways_; // and those of what it shares with the other direction
+    std::string way_;       // prefix of the names of its random streams
+    std::string both_ways_; // prefix for draws that both directions share
     Mtu mtu_;
     std::vector<LossStage> loss_;
     Corruption corrupt_;
@@ -117,7 +117,7 @@ private:
     DelayProcess jitter_;
     Reordering reorder_;
     base::RandomStream reorder_stream_;
-    std::unique_ptr<InRegimes> regimes_; // null: there are none
+    std::unique_ptr<InRegimes> regimes_; // null: there are no regimes
 };
 
 } // namespace hapnet::emulator

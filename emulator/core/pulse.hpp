@@ -44,7 +44,7 @@ struct Pulse {
     base::Duration delay_min = base::Duration::max();
     base::Duration delay_max = base::Duration::min();
     base::Duration late_max = base::Duration::min();
-    double delay_sum_ns = 0.0; // as a number: a sum of days of waiting does not overflow
+    double delay_sum_ns = 0.0; // floating point: sums of long delays do not overflow
     double late_sum_ns = 0.0;
 
     void on_sent(base::Duration delay, base::Duration late)

@@ -60,11 +60,11 @@ private:
     };
     std::vector<State> states_;
     base::RandomStream stream_;
-    std::uint64_t stays_ = 1; // that have begun
+    std::uint64_t stays_ = 1; // number of stays that have begun
     std::size_t now_ = 0;
     base::Duration begin_{};
     base::Duration end_{};
-    std::vector<RegimeCourse> past_; // `time` without the stay that goes on
+    std::vector<RegimeCourse> past_; // each `time` leaves out the present stay
 };
 
 } // namespace hapnet::emulator

@@ -30,7 +30,7 @@ public:
     {
         base::ensure(!full());
         const std::size_t place = (first_ + size_) & mask_;
-        if (place == entries_.size()) { // for the first time: they come in order
+        if (place == entries_.size()) { // first use of this place: places come in order
             entries_.push_back(entry);
         } else {
             entries_[place] = entry;
@@ -53,7 +53,7 @@ public:
 
 private:
     std::size_t mask_;       // a power of two, less one
-    std::vector<T> entries_; // those that have ever been used
+    std::vector<T> entries_; // places that were used at least once
     std::size_t first_ = 0;
     std::size_t size_ = 0;
 };

@@ -32,8 +32,8 @@ public:
 
     struct Stored {
         Slot slot = no_slot;
-        std::span<std::byte> bytes; // the copy
-        std::size_t slot_bytes = 0; // what it takes of the memory
+        std::span<std::byte> bytes; // the stored copy
+        std::size_t slot_bytes = 0; // size of the slot that holds the copy
     };
 
     /// A copy of `bytes` (at most 65536); nullopt when there is no room.
@@ -45,7 +45,7 @@ public:
 private:
     static constexpr std::array<std::uint32_t, 10> sizes{128,  256,  512,  1024,   1536,
                                                          2048, 4096, 8192, 16'384, 65'536};
-    static constexpr auto capacities = [] { // in slots
+    static constexpr auto capacities = [] { // slots in a block of each size
         std::array<std::uint32_t, sizes.size()> each{};
         for (std::size_t i = 0; i < sizes.size(); ++i) {
             each[i] = static_cast<std::uint32_t>(block_bytes) / sizes[i];
@@ -61,12 +61,12 @@ private:
     static constexpr Index no_index = 0xffff;
 
     struct Block {
-        std::uint32_t previous = none; // among the blocks of its size that have room
-        std::uint32_t next = none;     // the same, or the next free block
-        Index used = 0;                // slots
-        Index touched = 0;             // slots that have ever been used since the block was free
-        Index free = no_index;         // the first of those of them that are free
-        std::uint8_t size = 0;         // which of `sizes`
+        std::uint32_t previous = none; // previous block of its size with room
+        std::uint32_t next = none;     // next block of its size with room; if free: next free block
+        Index used = 0;                // slots in use
+        Index touched = 0;             // slots used at least once since the block was free
+        Index free = no_index;         // first free slot among the touched ones
+        std::uint8_t size = 0;         // index in `sizes`
     };
 
     [[nodiscard]] static std::uint8_t size_for(std::size_t bytes);
@@ -82,8 +82,8 @@ private:
     std::unique_ptr<std::byte[]> memory_; // NOLINT(*-avoid-c-arrays): not filled with zeros
     std::vector<Block> blocks_;
     std::array<std::uint32_t, sizes.size()> open_{}; // the first block of each size that has room
-    std::uint32_t free_ = none;                      // the first free block that has been used
-    std::uint32_t touched_ = 0;                      // the first that has not, and all behind it
+    std::uint32_t free_ = none;                      // first free block that was used before
+    std::uint32_t touched_ = 0;                      // this block and all behind it were never used
 };
 
 } // namespace hapnet::emulator

@@ -54,7 +54,7 @@ void SleepPolicy::on_wake_up(const Plan& plan, const WakeUp& wake_up)
     }
     const auto* sleep = std::get_if<Sleep>(&plan);
     if (sleep == nullptr || wake_up.by_datagram || !base::is_due(sleep->until, wake_up.woke_at)) {
-        return; // it says nothing about timers
+        return; // this wake-up says nothing about timers
     }
     const bool is_late = wake_up.woke_at - *sleep->until + warm_up_time > margin_;
     margin_ = std::clamp(margin_ + (is_late ? margin_growth : -margin_decay), limits_.least,

@@ -29,14 +29,14 @@ public:
 
     enum class Watching : std::uint8_t { within_budget, without_limit };
 
-    struct Spin { // return at once and read the clock again
+    struct Spin { // the caller returns at once and reads the clock again
         /// There is time to bring the way of a datagram into the caches, which a sleep has emptied.
         bool warm_up = false;
     };
-    struct Sleep { // until a datagram comes or it is time; nullopt: for a datagram alone
+    struct Sleep { // until a datagram comes, or until the time `until`
         std::optional<base::TimePoint> until;
     };
-    struct Yield { // sleep until then, even if a datagram comes
+    struct Yield { // sleep until this time, even if a datagram comes
         base::TimePoint until;
     };
     using Plan = std::variant<Spin, Sleep, Yield>;
@@ -80,7 +80,7 @@ private:
     WatchBudget budget_;
     base::Duration margin_;
     base::TimePoint slept_; // when a real sleep last ended
-    bool is_cold_ = false;  // since then
+    bool is_cold_ = false;  // no warm-up since that sleep
 };
 
 } // namespace hapnet::emulator

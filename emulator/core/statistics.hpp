@@ -81,8 +81,8 @@ constexpr auto fields_of(base::Tag<Counters>)
 
 /// The counters, and the times of the emulator's own doing.
 struct Statistics : Counters {
-    base::SnapshotHistogram lateness; // of each delivered one: left minus due
-    base::SnapshotHistogram sojourn;  // before a bottleneck, of each that it sent
+    base::SnapshotHistogram lateness; // departure minus due time, for each delivered datagram
+    base::SnapshotHistogram sojourn;  // wait before a bottleneck, for each datagram that it sent
 
     /// Adds up the directions of several paths.
     void add(const Statistics& other);

@@ -59,14 +59,14 @@ struct StreamReport {
 struct StreamTotals {
     base::RunningMoments requested;
     base::RunningMoments delay;
-    base::DelayMeter<base::SnapshotHistogram> delays; // one-way
+    base::DelayMeter<base::SnapshotHistogram> delays; // one-way delays
     base::SnapshotHistogram gaps;
     std::uint64_t clumped = 0;
     base::Tally missing_runs;
     base::Tally reordered;
     std::uint64_t beyond_look_back = 0;
     base::AgeMeter age;
-    std::optional<OverTime> over_time{}; // if it was asked for
+    std::optional<OverTime> over_time{}; // nullopt: not asked for
 
     [[nodiscard]] StreamReport report() const;
 };
@@ -120,7 +120,7 @@ private:
 
     StreamDetail detail_;
     StreamTotals totals_;
-    base::TimePoint last_sent_{}; // if anything was
+    base::TimePoint last_sent_{}; // time of the last departure, if there was one
     base::NextExpected expected_;
     base::ReorderExtents extents_;
 };

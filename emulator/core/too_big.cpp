@@ -18,7 +18,7 @@ constexpr std::byte hops{64};
 /// The form of a family's answers: the place of the addresses, and the greatest length.
 struct Family {
     std::size_t header_bytes;
-    std::size_t addresses_at; // the source's, and behind it the destination's
+    std::size_t addresses_at; // offset of the source address; the destination follows
     std::size_t address_bytes;
     std::size_t mtu_min;          // RFC 791, RFC 8200
     std::size_t answer_bytes_max; // RFC 1812, 4.3.2.3; RFC 4443, 2.4
@@ -53,7 +53,7 @@ bool is_icmp_error(std::span<const std::byte> packet)
 
 bool is_answered_v4(std::span<const std::byte> packet)
 {
-    constexpr std::uint8_t group_first = 224; // and all addresses above
+    constexpr std::uint8_t group_first = 224; // this and all higher first bytes
     constexpr unsigned must_not_be_fragmented = 0x4000;
     constexpr unsigned offset = 0x1fff;
     if (packet.size() < v4.header_bytes || at8(packet, 0) >> 4 != 4) return false;
@@ -68,7 +68,7 @@ bool is_answered_v6(std::span<const std::byte> packet)
 {
     constexpr std::uint8_t group = 0xff;
     constexpr std::uint8_t icmp = 58;
-    constexpr std::uint8_t information_first = 128; // of ICMPv6's types; those below are errors
+    constexpr std::uint8_t information_first = 128; // first ICMPv6 type that is not an error
     if (packet.size() <= v6.header_bytes || at8(packet, 0) >> 4 != 6) return false;
     const auto source = source_of(packet, v6);
     const bool is_error =
@@ -119,8 +119,8 @@ std::vector<std::byte> too_big_answer(std::span<const std::byte> frame, std::siz
     const std::size_t bytes = std::min(
         {family.answer_bytes_max, mtu, family.header_bytes + icmp_header_bytes + packet.size()});
     std::vector<std::byte> answer(read.header_bytes + bytes);
-    std::ranges::copy(read.source, answer.begin());        // to the sender,
-    std::ranges::copy(frame.first(6), answer.begin() + 6); // from the one it was meant for
+    std::ranges::copy(read.source, answer.begin());        // destination: the sender
+    std::ranges::copy(frame.first(6), answer.begin() + 6); // source: the frame's destination
     std::ranges::copy(frame.subspan(12, read.header_bytes - std::size_t{12}), answer.begin() + 12);
     const auto ip = std::span{answer}.subspan(read.header_bytes);
     if (is_v4) {

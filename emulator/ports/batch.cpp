@@ -115,7 +115,7 @@ void Batch::on_sent(EmulatedPath& path, const Datagram& departure, base::TimePoi
                                     .marks = departure.marks},
                                    at - departure.due, departure.is_copy);
     }
-    path.on_sent(way_.direction, departure, at); // its bytes go
+    path.on_sent(way_.direction, departure, at); // frees the bytes of the datagram
 }
 
 bool send_due(const Way& way, const Exit& exit, base::TimePoint now)

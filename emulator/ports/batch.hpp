@@ -28,14 +28,14 @@ struct Way {
     EmulatedPath& path;
     Direction direction;
     Recorder::Lane& recorder;
-    std::uint32_t recorded_as = 0; // by its fates; those of its flows follow
-    std::uint32_t pair = 0;        // of interfaces in the capture
+    std::uint32_t recorded_as = 0; // the path's number in the fates; its flows have the next ones
+    std::uint32_t pair = 0;        // number of its pair of interfaces in the capture
 };
 
 /// The side where the datagrams of one direction enter.
 struct Entrance {
     CaptureSide side;
-    const net::Endpoint& local; // of the socket
+    const net::Endpoint& local; // address of the socket
 };
 
 /// Returns the properties of a datagram that filters of flows can match. A destination that is not
@@ -47,7 +47,7 @@ struct Entrance {
 struct Exit {
     CaptureSide side;
     net::UdpSocket& socket;
-    const net::Endpoint& local; // of the socket
+    const net::Endpoint& local; // address of the socket
     const std::optional<net::Endpoint>& destination;
 };
 
@@ -81,7 +81,7 @@ private:
     Exit exit_;
     template <typename T>
     using Each = base::InplaceVector<T, net::BatchSender::batch_max>;
-    Each<EmulatedPath*> paths_; // of the departures
+    Each<EmulatedPath*> paths_; // path of each departure
     Each<Datagram> departures_;
     Each<std::span<const std::byte>> bytes_;
     Each<base::IpMarks> marks_;

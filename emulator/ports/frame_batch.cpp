@@ -92,7 +92,7 @@ void FrameBatch::on_sent(const Entry& entry, std::span<const std::byte> bytes, b
                 at - entry.departure.due, entry.departure.is_copy);
         }
     }
-    path->on_sent(direction, entry.departure, at); // its bytes go
+    path->on_sent(direction, entry.departure, at); // frees the bytes of the frame
 }
 
 } // namespace hapnet::emulator::ports

@@ -18,7 +18,7 @@ namespace hapnet::emulator::ports {
 struct FrameWay {
     EmulatedPath* path = nullptr;
     Direction direction = Direction::up;
-    std::uint32_t pair = 0; // of interfaces in the capture
+    std::uint32_t pair = 0; // number of its pair of interfaces in the capture
 };
 
 /// The frames that leave from one interface, of all paths that end there: gathered and sent
@@ -38,7 +38,7 @@ public:
 
 private:
     struct Entry {
-        FrameWay way{}; // without a path: undisturbed
+        FrameWay way{}; // without a path the frame passes undisturbed
         std::uint64_t* lost = nullptr;
         Datagram departure{};
     };
@@ -54,7 +54,7 @@ private:
     using Each = base::InplaceVector<T, net::PacketSocket::batch_max>;
     Each<Entry> entries_;
     Each<std::span<const std::byte>> bytes_;
-    std::vector<std::vector<std::byte>> changed_; // copies of frames that leave otherwise
+    std::vector<std::vector<std::byte>> changed_; // copies of frames that leave with changes
 };
 
 } // namespace hapnet::emulator::ports

@@ -31,14 +31,14 @@ public:
     struct Place {
         std::string name; // "a"
         std::string interface;
-        std::optional<MacAddress> machine{}; // nullopt: it is not known
+        std::optional<MacAddress> machine{}; // its MAC address; nullopt: not known
     };
 
     struct Setup {
         std::vector<Place> ends;      // two or more
         bool all_frames = false;      // the conditions hold for every frame
-        bool fix_checksums = false;   // of what leaves: damage is then not found by them
-        bool stops_at_loop = false;   // when one machine is heard on both sides
+        bool fix_checksums = false;   // recomputed for frames that leave: they hide damage
+        bool stops_at_loop = false;   // ends the run if one machine is heard on both sides
         bool answers_too_big = false; // tells the sender of what `mtu` drops, as a router would
         /// Why a packet may be longer than the MTU, and what a person can do; "": the interface
         /// puts segments together.
@@ -58,23 +58,23 @@ public:
         std::optional<MacAddress> machine;
         net::PacketSocket socket;
         FrameBatch leaving;
-        std::size_t frame_bytes_max;   // of its MTU
+        std::size_t frame_bytes_max;   // longest frame that its MTU allows, without VLAN tags
         std::uint64_t undisturbed = 0; // frames that the conditions do not hold for
         std::uint64_t not_ip = 0;
-        std::uint64_t oversized = 0;        // longer than the MTU: put together by an interface
-        std::uint64_t lost_undisturbed = 0; // of `undisturbed`: the system did not take them
-        std::uint64_t told_too_big = 0;     // of its packets: those whose sender got an answer
+        std::uint64_t oversized = 0;        // longer than the MTU: merged by an interface
+        std::uint64_t lost_undisturbed = 0; // frames among `undisturbed` that were not sent
+        std::uint64_t told_too_big = 0;     // answers sent to it about packets too big
     };
 
     /// Two ends and the path between them.
     struct Pair {
         std::string name;
         EmulatedPath& path;
-        std::size_t a; // `up` is from here
+        std::size_t a; // `up` goes from a to b
         std::size_t b;
-        std::uint32_t number;             // of interfaces in the capture
-        std::uint32_t recorded_as;        // by its fates; those of its flows follow
-        std::uint64_t unreachable_up = 0; // answers that no program listens where those went
+        std::uint32_t number;             // number of its pair of interfaces in the capture
+        std::uint32_t recorded_as;        // number in the fates; its flows have the next ones
+        std::uint64_t unreachable_up = 0; // answers from b that no program listens there
         std::uint64_t unreachable_down = 0;
     };
 
@@ -121,7 +121,7 @@ private:
     Recorder::Lane& recorder_;
     std::deque<End> ends_;
     std::deque<Pair> pairs_;
-    std::vector<Pair*> by_path_; // by the numbers of their paths, those of flows too
+    std::vector<Pair*> by_path_; // indexed by the numbers of paths, also of flows
     /// The machines heard last, by a hash of their addresses, and where: enough to find a loop,
     /// which repeats them all the time.
     struct Heard {

@@ -41,7 +41,7 @@ std::vector<net::Endpoint> Links::locals() const
 
 void Links::Part::receive()
 {
-    if (!ready_) return relays_.front()->receive(); // to ask first would cost another call
+    if (!ready_) return relays_.front()->receive(); // asking first would cost another call
     for (const net::Ready& ready : ready_->ready()) {
         Relay& relay = *relays_[ready.key / 2];
         ready.key % 2 == 0 ? relay.receive_from_a() : relay.receive_from_b();

@@ -48,10 +48,10 @@ public:
         friend class Links;
         void add(Relay& relay, Paths& paths);
 
-        std::optional<net::WaitSet> ready_; // of several
+        std::optional<net::WaitSet> ready_; // nullopt: there is only one relay
         Paths* paths_ = nullptr;
-        std::vector<Relay*> relays_;  // in their order
-        std::vector<Relay*> by_path_; // by the numbers of their paths, those of flows too
+        std::vector<Relay*> relays_;  // in the order of add()
+        std::vector<Relay*> by_path_; // indexed by the numbers of paths, also of flows
     };
 
     /// Binds all sockets. A part for each of the paths: the links are dealt out in turn. Throws

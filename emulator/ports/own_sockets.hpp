@@ -22,7 +22,7 @@ public:
 private:
     struct Socket {
         net::Endpoint local;
-        net::AddressSet host; // where it can be reached, when that is not all of this machine
+        net::AddressSet host; // addresses of `local`, unless it is any address
     };
     net::AddressSet this_machine_ = net::addresses_of_this_machine();
     mutable std::mutex lock_;

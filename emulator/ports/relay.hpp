@@ -60,7 +60,7 @@ public:
     /// The sender of a dropped datagram, and the reason.
     struct Stranger {
         net::Endpoint who;
-        std::optional<net::Endpoint> owner; // of this side
+        std::optional<net::Endpoint> owner; // the endpoint that this side accepts
         base::TimePoint owner_heard{};
         Refusal why = Refusal::is_own;
         base::TimePoint at{};
@@ -71,15 +71,15 @@ public:
         Side(CaptureSide which, const Endpoints& endpoints, const Link& from_here);
 
         CaptureSide side;
-        Direction direction; // of the datagrams that come from here
+        Direction direction; // direction of datagrams from this side
         net::UdpSocket socket;
         net::Endpoint local;
         EndpointFilter<net::Endpoint> filter;
-        std::optional<net::AddressSet> allowed; // that may be adopted; nullopt: whoever comes
-        const Link& link;                       // of that direction
+        std::optional<net::AddressSet> allowed; // senders that may be adopted; nullopt: any
+        const Link& link;                       // the link in that direction
         std::uint64_t strangers = 0; // datagrams from any other address, our own among them
         RateLimit notice{};
-        std::optional<Stranger> stranger{}; // one that nobody has been told of
+        std::optional<Stranger> stranger{}; // a stranger that was not reported yet
 
         [[nodiscard]] Entrance entrance() const { return {side, local}; }
         [[nodiscard]] Exit exit() { return {side, socket, local, filter.address()}; }
@@ -113,7 +113,7 @@ private:
     OwnSockets& own_;
     Side a_;
     Side b_;
-    bool has_adopted_ = false; // and nobody has been told
+    bool has_adopted_ = false; // an adoption was not reported yet
 };
 
 } // namespace hapnet::emulator::ports

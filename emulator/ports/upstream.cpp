@@ -206,7 +206,7 @@ std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& dat
     try {
         client = std::make_unique<Client>(++common_.numbered, datagram.from, common_.places);
         answers_.add(client->socket.descriptor(), place, {.to_read = true});
-    } catch (const std::system_error& error) { // no descriptors, no ports
+    } catch (const std::system_error& error) { // no descriptors or ports are left
         refuse(datagram, fmt::format("as the system has no socket for it: {}", error.what()));
         return nullptr;
     }
@@ -223,7 +223,7 @@ std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& dat
 void Upstream::Part::take_from_clients()
 {
     const auto arrived = listening_.receive();
-    std::optional<Batch> undelayed; // of one client after the other
+    std::optional<Batch> undelayed; // for one client after the other
     const Client* whose = nullptr;
     for (const net::Received& datagram : arrived) {
         Client* client = client_of(datagram);

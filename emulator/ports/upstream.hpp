@@ -36,23 +36,23 @@ class Upstream {
 public:
     struct Setup {
         std::size_t clients_max = 64;
-        base::Duration idle = std::chrono::seconds{60}; // silent for so long: forgotten
-        bool named_by_address = false;                  // their paths; else by their numbers
+        base::Duration idle = std::chrono::seconds{60}; // silent clients are forgotten after this
+        bool named_by_address = false;                  // names of clients' paths; false: by number
     };
 
     /// A client and its path. `up` is from the client to the server.
     struct Client {
         Client(std::uint64_t number, const net::Endpoint& address, const ServerAndClients& places);
 
-        std::uint64_t number; // from 1, by their first datagrams
+        std::uint64_t number; // from 1, in the order of first datagrams
         std::optional<net::Endpoint> address;
         std::optional<net::Endpoint> server;
-        net::UdpSocket socket; // to the server
-        net::Endpoint local;   // of it
-        std::string name{};    // of its path
+        net::UdpSocket socket; // its socket towards the server
+        net::Endpoint local;   // address of `socket`
+        std::string name{};    // name of its path
         EmulatedPath* path = nullptr;
         std::uint32_t recorded_as = 0;
-        std::uint64_t strangers = 0; // datagrams to its socket that are not the server's
+        std::uint64_t strangers = 0; // datagrams to `socket` from others than the server
     };
 
     /// The statistics of one flow.
@@ -63,9 +63,9 @@ public:
 
     /// Sums over the clients that have been forgotten.
     struct Departed {
-        Statistics up; // of those that belong to no flow
+        Statistics up; // datagrams that belong to no flow
         Statistics down;
-        std::vector<FlowSums> flows; // in the order of the profile
+        std::vector<FlowSums> flows; // sums of the flows, in the profile's order
         std::uint64_t strangers_down = 0;
         std::uint64_t overflowed_down = 0;
         std::uint64_t unreachable_up = 0;
@@ -106,7 +106,7 @@ private:
         Setup setup;
         Recorder& recorder;
         OwnSockets own{};
-        std::mutex lock{}; // of what follows: where a client comes or goes
+        std::mutex lock{}; // guards the members below when clients come and go
         std::uint64_t numbered = 0;
         std::size_t present = 0;
     };
@@ -172,10 +172,10 @@ private:
     net::Endpoint local_;
     net::WaitSet answers_;
     ClientTable<net::Endpoint> table_;
-    std::vector<std::unique_ptr<Client>> clients_; // by their places
-    std::vector<Client*> by_path_; // by the numbers of their paths, those of flows too
-    std::map<std::string, std::uint64_t> visits_; // by addresses, where they are names
-    std::optional<base::TimePoint> next_look_;    // at who is idle
+    std::vector<std::unique_ptr<Client>> clients_; // indexed by the places in table_
+    std::vector<Client*> by_path_;                 // indexed by the numbers of paths, also of flows
+    std::map<std::string, std::uint64_t> visits_; // visits so far by each address that names a path
+    std::optional<base::TimePoint> next_look_;    // next search for idle clients
     Departed departed_;
     std::uint64_t strangers_ = 0;
     std::uint64_t refused_ = 0;

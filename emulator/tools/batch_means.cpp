@@ -30,7 +30,7 @@ double error_of_mean(std::span<const double> values)
         if (i > 0) products += (values[i] - mean) * (values[i - 1] - mean);
     }
     if (squares <= 0.0) return 0.0;
-    constexpr double most = 0.99; // of a series that only rises
+    constexpr double most = 0.99; // as for a series that only rises
     const double correlation = std::clamp(products / squares, 0.0, most);
     const auto n = static_cast<double>(values.size());
     const double independent = std::sqrt(squares / (n - 1.0) / n);
@@ -73,7 +73,7 @@ std::optional<Precision> BatchMeans::precision() const
     const double shift = all.first / all.count;
     const double variance = all.second / all.count - shift * shift;
     std::vector<double> means;
-    std::vector<double> variances; // about the mean of all
+    std::vector<double> variances; // of batches, about the mean of all values
     for (const Sums& batch : batches_) {
         const double mean = batch.first / batch.count;
         means.push_back(mean);

@@ -15,7 +15,7 @@ namespace hapnet::emulator::tools {
 /// width of a 95 % interval.
 struct Precision {
     double mean = 0.0;
-    double sd = 0.0; // 0 for values that are all the same
+    double sd = 0.0; // 0 if all values are equal
 };
 constexpr auto fields_of(base::Tag<Precision>)
 {
@@ -40,8 +40,8 @@ public:
 private:
     struct Sums {
         double count = 0.0;
-        double first = 0.0;  // of the values less the first of all: numbers stay small
-        double second = 0.0; // of their squares
+        double first = 0.0;  // sum of value - origin_: numbers stay small
+        double second = 0.0; // sum of the squares of value - origin_
 
         void add(const Sums& other);
     };

@@ -58,7 +58,7 @@ constexpr std::array<Unit, 19> rate_units{{
 
 struct Quantity {
     double number = 0.0;
-    std::string unit; // in lower case
+    std::string unit; // the unit in lower case
 };
 
 std::optional<Quantity> split(std::string_view word)
@@ -137,7 +137,7 @@ base::Duration NetemWords::time()
 base::Probability NetemWords::share()
 {
     auto word = take("a share, such as 1%");
-    if (!word.ends_with('%')) word += '%'; // to tc a bare number is per cent
+    if (!word.ends_with('%')) word += '%'; // tc reads a bare number as per cent
     const auto share = base::parse_probability(word);
     if (!share) complain(share.error().message);
     return share.value_or(base::Probability{});

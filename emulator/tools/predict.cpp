@@ -54,7 +54,7 @@ public:
 private:
     DirectionPrediction result_;
     BatchMeans delays_;
-    std::uint64_t run_ = 0; // of losses, not yet over
+    std::uint64_t run_ = 0; // length of the run of losses in progress
 };
 
 /// A stream on its way through a path.

@@ -22,20 +22,20 @@ namespace hapnet::emulator::tools {
 struct Stream {
     base::Duration spacing = std::chrono::milliseconds{1}; // > 0
     std::uint64_t packets = 400'000;
-    std::size_t bytes = 136; // of payload, at most 65507; of a state in the paper's scene
-    std::string path{};      // that it takes, where there are several: its draws are named by it
-    bool is_sealed = false;  // its receiver refuses what is damaged, so that it counts as lost
+    std::size_t bytes = 136; // payload, at most 65507; as a state in the paper's scene
+    std::string path{};      // path that it takes, if there are several; names its draws
+    bool is_sealed = false;  // damaged datagrams count as lost: the receiver refuses them
 
     friend bool operator==(const Stream&, const Stream&) = default;
 };
 
 /// The outcome of the stream in one direction.
 struct DirectionPrediction {
-    Statistics statistics; // nothing in flight any more
+    Statistics statistics; // counted until nothing is in flight
     StreamReport measured;
     /// Runs of losses by their numbers: dropped, or damaged where that is refused.
     base::Tally loss_runs;
-    base::Duration added_by_queues{}; // mean delay beyond the drawn one: rate and order
+    base::Duration added_by_queues{}; // mean delay that rate and order add to the drawn one
     /// The precision of the delay's mean and deviation; nullopt: too few datagrams left the link.
     std::optional<Precision> precision;
 

@@ -65,7 +65,7 @@ void encode(const ProbeMessage& message, std::span<std::byte> bytes)
     out.u8(probe_version);
     out.u8(message.is_answer ? 1 : 0);
     out.u16(0);
-    out.u64(0); // the checksum's place
+    out.u64(0); // place of the checksum
     out.u64(message.session);
     out.u64(message.sequence);
     out.i64(number_of(message.sent));

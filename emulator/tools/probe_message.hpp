@@ -16,18 +16,18 @@ namespace hapnet::emulator::tools {
 /// the bytes.
 struct ProbeMessage {
     bool is_answer = false;
-    std::uint64_t session = 0;  // of whoever asks; drawn when it begins
-    std::uint64_t sequence = 0; // of the question, from 0
-    base::TimePoint sent{};     // the question, by the clock of whoever asks
+    std::uint64_t session = 0;  // number of the asking program's session, drawn at its start
+    std::uint64_t sequence = 0; // number of the question, from 0
+    base::TimePoint sent{};     // departure of the question, by the asking side's clock
 
     // Fields of an answer, by the clock of the side that answers:
     base::TimePoint received{}; // the question's kernel receive stamp
     base::TimePoint answered{};
     std::uint64_t heard = 0; // questions of this session so far, copies left out
-    std::uint64_t boot = 0;  // the boot of that machine; see boot_number()
+    std::uint64_t boot = 0;  // boot of the answering machine; see boot_number()
 
     static constexpr std::size_t bytes_min = 72;
-    static constexpr std::size_t bytes_max = 65'507; // of UDP over IPv4
+    static constexpr std::size_t bytes_max = 65'507; // largest UDP payload over IPv4
 
     friend bool operator==(const ProbeMessage&, const ProbeMessage&) = default;
 };

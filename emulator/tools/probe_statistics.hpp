@@ -19,10 +19,10 @@ namespace hapnet::emulator::tools {
 /// An answer that came.
 struct ProbeReply {
     std::uint64_t sequence = 0;
-    base::Duration round_trip{}; // without the time in the answering program
-    base::Duration there{};      // these two hold where the clocks are one; see clocks_are_one()
+    base::Duration round_trip{}; // does not include the time in the answering program
+    base::Duration there{};      // this and `back` hold if clocks_are_one()
     base::Duration back{};
-    bool is_copy = false; // the question was answered before
+    bool is_copy = false; // an earlier answer to the question has come
 };
 
 /// Delays of a way. Quantiles are values that occurred.
@@ -140,7 +140,7 @@ public:
 private:
     struct Row {
         base::TimePoint sent{};
-        base::Duration there{}; // by two clocks: their offset is in it
+        base::Duration there{}; // by two clocks: includes their offset
         base::Duration back{};
         std::uint32_t answers = 0;
     };
@@ -149,9 +149,9 @@ private:
 
     std::uint64_t session_;
     std::uint64_t boot_;
-    std::vector<Row> rows_; // by sequence number
+    std::vector<Row> rows_; // indexed by sequence number
     base::ArrivalCounter answers_{0};
-    std::uint64_t heard_ = 0; // by the other side, as far as it said
+    std::uint64_t heard_ = 0; // questions heard by the other side, as it last said
     base::Duration longest_{};
     bool clocks_are_one_ = true;
 };

@@ -12,7 +12,8 @@ int main()
     const auto no_file = [](const std::string& name) { return base::Result<std::string>{name}; };
     auto world = scene::World::freeze(scene::load_scene("paper", no_file).value()).value();
     for (int tick = 0; tick <= 1000; ++tick) {
-        const double hip_m = -0.025 + 20e-6 * tick; // the radii of cube and hand are 25 mm
+        // Half the cube's edge and the hand's radius add up to 25 mm.
+        const double hip_m = -0.025 + 20e-6 * tick;
         world.set_hand(0, {.position = {{hip_m, 0.0, 0.0}}, .velocity = {{0.02, 0.0, 0.0}}});
         world.tick();
         if (tick % 250 != 0) continue;

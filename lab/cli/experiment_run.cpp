@@ -151,7 +151,7 @@ public:
         const auto& parts = experiment_.parts;
         for (auto part = parts.begin(); part != parts.end();) {
             std::vector<runner::Assignment> jobs;
-            std::vector<std::size_t> counts; // of the parts of this batch
+            std::vector<std::size_t> counts; // number of jobs of each part in this batch
             const auto first = part;
             for (; part != parts.end() && jobs.size() < batch; ++part) {
                 auto more = jobs_of(*part, deal);
@@ -175,7 +175,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t batch = 1000; // jobs, where threads wait for one another
+    static constexpr std::size_t batch = 1000; // jobs; threads wait for one another after each
 
     const LoadedExperiment& experiment_;
     experiment::Shard shard_;
@@ -282,7 +282,7 @@ private:
     {
         const auto& axes = experiment_.whole.axes;
         if (!axes.empty()) {
-            if (table.name.starts_with("replay")) return; // of each point there is none
+            if (table.name.starts_with("replay")) return; // not kept for each point
             table = with_leading(leading_cells(axes, part), std::move(table));
             table.name += axes.size() == 1 ? "_by_axis" : "_by_point";
         }
@@ -291,7 +291,7 @@ private:
         constexpr std::array<std::string_view, 4> are_short{"table1", "limits", "limits_by_axis",
                                                             "requirements"};
         if (std::ranges::find(are_short, table.name) == are_short.end()) return;
-        if (table.name == "requirements") short_.clear(); // the limits again, in fewer rows
+        if (table.name == "requirements") short_.clear(); // repeats the limits in fewer rows
         const auto known = std::ranges::find(short_, table.name, &results::Table::name);
         append(known == short_.end() ? short_.emplace_back(results::Table{table.name, {}}) : *known,
                table);
@@ -303,8 +303,8 @@ private:
     runner::ResultTables tables_;
     std::vector<std::string> names_;
     std::vector<results::Table> short_;
-    std::string shown_;                           // on standard output
-    std::vector<results::AxisFindings> findings_; // of an axis with a reference, or over hands
+    std::string shown_;                           // text for standard output
+    std::vector<results::AxisFindings> findings_; // for an axis with a reference, or of hands
     bool has_written_ = false;
     base::TimePoint start_;
     double start_s_;

@@ -17,15 +17,15 @@ namespace hapnet::lab {
 /// An experiment, whole as it is stated, and in the parts that are played one after the other.
 struct LoadedExperiment {
     struct Part {
-        std::size_t point = 0;           // number of the point of the axes
-        experiment::AxisValues values{}; // there; empty: there are none
+        std::size_t point = 0;           // number of the point of the axes that it plays
+        experiment::AxisValues values{}; // values of the axes at that point; empty: no axes
         experiment::Experiment experiment;
     };
 
     experiment::Experiment whole;
     std::vector<Part> parts;
     metrics::Criteria criteria;
-    std::string program; // who plays
+    std::string program; // identity of the program that plays
     std::size_t jobs = 0;
 };
 
@@ -33,7 +33,7 @@ struct LoadedExperiment {
 struct RunPlace {
     std::string out;
     unsigned threads = 1;
-    std::string command; // what was typed
+    std::string command; // command line, for the manifest
 };
 
 /// Plays what is missing, and writes the results. The exit code, or why it cannot begin.

@@ -109,7 +109,7 @@ base::Result<record::Record> read_record(const std::string& path)
                                       "killed or its disk was full");
     }
     if (record && record->config.value("program", "") == "hapnet-peer") {
-        const auto wire = record->config.value("wire", std::int64_t{1}); // said from version 2 on
+        const auto wire = record->config.value("wire", std::int64_t{1}); // missing in version 1
         if (wire != wire::protocol_version) {
             return base::fail(
                 fmt::format("{}: its messages are of version {} of the wire, and this "
@@ -132,7 +132,7 @@ base::Result<void> load_own_algorithms(experiment::Experiment& experiment)
 
 void create_folder(const std::string& path)
 {
-    if (path.empty()) return; // of a file that is named without a folder
+    if (path.empty()) return; // the folder of a file named without one
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (error) throw std::system_error{error, "cannot create the folder " + path};

@@ -21,27 +21,27 @@ namespace hapnet::lab {
 struct AnalyseCommand {
     std::string record_a;
     std::string record_b;
-    std::vector<std::string> more; // of more than two peers
+    std::vector<std::string> more; // records of further peers
     bool json = false;
 };
 
 /// `hapnet-lab play [EXPERIMENT] [--task T3 --algorithm sep ...] [--json | --control SOCKET]`, or
 /// `hapnet-lab play RECORD RECORD --control SOCKET`
 struct PlayCommand {
-    std::string experiment; // a file, or the name of a built-in one; empty: what the options say
-    std::string record;     // of the second peer; `experiment` is that of the first then
+    std::string experiment; // file or name of a built-in one; empty: what the options say
+    std::string record;     // record of the second peer; `experiment` is then the first's
     std::string task = "P1";
-    std::vector<std::string> algorithms; // none: base
+    std::vector<std::string> algorithms; // empty: base
     std::string profile;                 // a file, or the name of a preset
-    std::vector<std::string> settings;   // of the experiment: "both.delay=160ms"
+    std::vector<std::string> settings;   // settings of the experiment, such as "both.delay=160ms"
     std::uint64_t seed = 1;
     base::Duration duration{std::chrono::seconds{30}};
     std::uint32_t peers = 2;
     bool json = false;
-    std::string control;              // a socket; empty: it plays to the end
-    std::string device = "sim";       // of A: sim or page
-    std::string out;                  // where experiments are saved
-    std::optional<double> pace = 1.0; // nullopt: as fast as possible
+    std::string control;              // path of a socket; empty: play to the end without one
+    std::string device = "sim";       // A's device: sim or page
+    std::string out;                  // folder in which experiments are saved
+    std::optional<double> pace = 1.0; // virtual seconds per second; nullopt: as fast as possible
     bool paused = false;
 };
 
@@ -50,16 +50,17 @@ enum class ExportRows : std::uint8_t { ticks, messages, bodies };
 /// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages|bodies] | --mcap`
 struct ExportCommand {
     std::string record;
-    std::string other; // of the other peer: the ticks of both are joined; empty: of one alone
+    /// The record of the other peer, to export both; empty: export one record.
+    std::string other;
     ExportRows rows = ExportRows::ticks;
-    bool as_mcap = false; // instead of CSV
+    bool as_mcap = false; // MCAP instead of CSV
 };
 
 /// `hapnet-lab demo-report FOLDER`: the end of scripts/demo.sh.
 struct DemoReportCommand {
     std::string folder;
-    std::string command; // what was typed
-    std::string start;   // ISO 8601, UTC
+    std::string command; // command line, for the manifest
+    std::string start;   // start time, ISO 8601, UTC
     double wall_time_s = 0.0;
 };
 
@@ -74,19 +75,19 @@ struct ExplainCommand {
 /// `hapnet-lab real-time DIR [--next | --played FOLDER]`: what scripts/real-time.sh asks.
 struct RealTimeCommand {
     std::string folder;
-    bool next = false;          // of a plan: says which session is to be played now
-    std::uint32_t attempts = 3; // how often one is played that is never valid
-    std::string played;         // the folder of a session that was played; empty: all of them
+    bool next = false;          // print a plan's next session, and write its files
+    std::uint32_t attempts = 3; // most attempts at a session until one is valid
+    std::string played;         // folder of one played session; empty: all of them
     bool keep_records = false;
-    std::string command; // what was typed
-    std::string start;   // ISO 8601, UTC
+    std::string command; // command line, for the manifest
+    std::string start;   // start time, ISO 8601, UTC
     double wall_time_s = 0.0;
 };
 
 /// `hapnet-lab replay RECORD [--algorithm NAME|FILE] [--json | --csv]`
 struct ReplayCommand {
     std::string record;
-    std::optional<std::string> algorithm; // instead of the recorded one
+    std::optional<std::string> algorithm; // played instead of the recorded one
     bool json = false;
     bool csv = false;
 };
@@ -94,9 +95,9 @@ struct ReplayCommand {
 /// `hapnet-lab report DIR [--out FILE]`, `hapnet-lab report RECORD_A RECORD_B [--out FILE]`
 struct ReportCommand {
     std::string path;                // a folder, or the record of one peer
-    std::string record_b;            // of another; empty: path is a folder
-    std::vector<std::string> more{}; // of more than two peers
-    std::string out{};               // the page; empty: report.html in the folder
+    std::string record_b;            // record of another peer; empty: `path` is a folder
+    std::vector<std::string> more{}; // records of further peers
+    std::string out{}; // path of the page; empty: report.html in the folder or beside `path`
 };
 
 /// `hapnet-lab run EXPERIMENT [--set key=value ...] [--seeds N] [--jobs N] [--quick] --out DIR`,
@@ -104,25 +105,25 @@ struct ReportCommand {
 struct RunCommand {
     std::string experiment; // a file, the name of a built-in one, or a plan
     std::vector<std::string> settings;
-    std::string criteria = "paper"; // a file, or the name of built-in ones
+    std::string criteria = "paper"; // a file, or the name of built-in criteria
     std::optional<std::uint32_t> seeds;
-    std::optional<unsigned> jobs; // nullopt: as many as there are processors
+    std::optional<unsigned> jobs; // number of threads; nullopt: one for each processor
     bool quick = false;
-    std::optional<experiment::Shard> shard; // of a plan; nullopt: all of it
-    std::string out;                        // empty: of a plan its folder
-    std::string command;                    // what was typed
+    std::optional<experiment::Shard> shard; // part of a plan that is to be run; nullopt: the whole
+    std::string out;                        // folder of the results; empty: that of the plan
+    std::string command;                    // command line, for the manifest
 };
 
 /// `hapnet-lab plan EXPERIMENT [--set key=value ...] [--seeds N] [--quick] --out DIR`
 struct PlanCommand {
-    RunCommand run; // what is to be run
+    RunCommand run; // the run to plan
 };
 
 /// `hapnet-lab merge DIR [MORE ...] [--jobs N]`
 struct MergeCommand {
-    std::vector<std::string> folders; // that of the plan, and others with shards
-    std::optional<unsigned> jobs;     // as of RunCommand
-    std::string command;              // what was typed
+    std::vector<std::string> folders; // the plan's folder, then others with shards
+    std::optional<unsigned> jobs;     // number of threads, as in RunCommand
+    std::string command;              // command line, for the manifest
 };
 
 /// `hapnet-lab compare DIR_A DIR_B [--json | --csv]`
@@ -137,7 +138,7 @@ struct CompareCommand {
 struct ImportHandsCommand {
     std::vector<std::string> files;
     hands::ImportRules rules;
-    std::string out; // the folder of trials that these are added to
+    std::string out; // folder to which the imported trials are added
 };
 
 using Command = std::variant<AnalyseCommand, ImportHandsCommand, ExportCommand, DemoReportCommand,

@@ -14,11 +14,11 @@ namespace hapnet::lab {
 /// plan.json: an experiment with all its inputs, so that each shard of it, on any machine, plays
 /// sessions of the same experiment.
 struct Plan {
-    std::string experiment; // as after `hapnet-lab plan`
+    std::string experiment; // the EXPERIMENT given to `hapnet-lab plan`
     experiment::Overrides overrides{};
-    std::string criteria;                       // likewise
+    std::string criteria;                       // the value of its --criteria
     std::map<std::string, std::string> files{}; // the texts of all files that were read, by name
-    std::string program;                        // who made it: another program may play otherwise
+    std::string program; // program that made the plan: another one may play differently
 };
 
 inline constexpr const char* plan_name = "plan.json";

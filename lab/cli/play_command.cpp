@@ -158,7 +158,7 @@ private:
 template <typename Played>
 void play_a_turn(Played& session, live::Pace& pace, base::Duration passed, base::Duration tick)
 {
-    if (session.is_over()) return pace.pause(); // a seek back from there does not play on
+    if (session.is_over()) return pace.pause(); // so that a seek back does not play on
     if (const auto due = pace.due(passed, tick)) return session.play_on(*due);
     const auto end = net::monotonic_now() + playing_max;
     while (!session.is_over() && net::monotonic_now() < end) session.play_on(played_at_once);

@@ -150,7 +150,8 @@ base::Result<results::Results> results_in(const fs::path& root, const fs::path& 
     for (const fs::path& place : places) {
         const auto records = records_in(place);
         if (records.size() < 2) continue;
-        if (records.size() > 2 && !are_of_one_session(records)) continue; // which belong together?
+        // It is not clear which of the records belong together.
+        if (records.size() > 2 && !are_of_one_session(records)) continue;
         const auto name = place == root ? "" : place.filename().string();
         const auto added = add_records(*results, name, records, folder);
         if (!added) return tl::unexpected{added.error()};
@@ -237,7 +238,7 @@ void write_manifest(const results::Results& results, std::string root)
     if (results.runs.empty()) return;
     while (root.size() > 1 && root.ends_with('/')) root.pop_back();
     const auto path = root + "/manifest.json";
-    if (fs::exists(path)) { // one of a run stays
+    if (fs::exists(path)) { // keep the manifest of a run
         const auto there = read_json(path);
         if (!there || !results::is_of_several(*there)) return;
     }

@@ -58,7 +58,7 @@ struct Sweep {
 /// Returns a name that is the same for the same session, whatever else an experiment has.
 std::string name_of(const experiment::SessionJob& job)
 {
-    constexpr std::size_t digits = 16; // of the hash at the end of a key
+    constexpr std::size_t digits = 16; // length of the hash at the end of a key
     const auto key = key_of(job.spec, base::version_line("hapnet"));
     return fmt::format("{}-{}-peers-seed-{}-{}", device::name_of(job.task),
                        job.spec.setting.players.size(), job.spec.setting.seed.value(),

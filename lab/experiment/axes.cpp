@@ -28,7 +28,7 @@ tl::unexpected<base::Error> refuse_axis(const Axis& axis, std::string_view why)
 struct NumberWithUnit {
     double number = 0.0;
     std::string_view unit;
-    int decimals = 0; // that were written
+    int decimals = 0; // decimals that were written
 };
 
 std::optional<NumberWithUnit> number_with_unit(std::string_view text)
@@ -50,7 +50,7 @@ struct NumberRange {
     double to = 0.0;
     std::optional<double> step{};
     std::string unit{};
-    int decimals = 0; // with which values are written
+    int decimals = 0; // decimals with which values are written
 
     [[nodiscard]] std::size_t steps() const
     {

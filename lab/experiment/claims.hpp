@@ -14,11 +14,11 @@ namespace hapnet::lab::experiment {
 /// Conditions under which the claims of docs/results/beat.md are judged: the same between any two
 /// peers, both ways.
 struct ClaimCell {
-    std::string_view name; // in sessions.csv
+    std::string_view name; // name of the condition in sessions.csv
     std::int64_t delay_ms = 0;
-    std::int64_t jitter_ms = 0; // uniform from 0 to twice that, of this mean; messages overtake
+    std::int64_t jitter_ms = 0; // mean of a uniform jitter from 0 to twice this; messages overtake
     std::int64_t loss_percent = 0;
-    std::int64_t burst_of_100 = 0; // messages lost in a row
+    std::int64_t burst_of_100 = 0; // messages lost in a row, of every 100
     std::vector<device::Task> tasks{};
     std::string_view hands = "nominal";
     std::uint32_t peers = 2;

@@ -13,7 +13,7 @@ namespace hapnet::lab::experiment {
 
 /// Criteria that every program carries with it: a file of scripts/criteria.
 struct BuiltInCriteria {
-    std::string_view name; // without .toml
+    std::string_view name; // file name without .toml
     std::string_view text;
 };
 

@@ -53,7 +53,8 @@ base::Result<std::vector<SessionJob>> daemon_sessions(const Experiment& experime
     std::vector<SessionJob> sessions;
     for (Job& job : make_jobs(experiment)) {
         auto* one = std::get_if<SessionJob>(&job);
-        if (one == nullptr) continue; // copies after silence, which is no network of an emulator
+        // The other jobs measure copies after silence, which no emulator can play.
+        if (one == nullptr) continue;
         if (auto valid = validate(one->spec.setting); !valid) return tl::unexpected{valid.error()};
         one->spec.rows_per_s = 0;
         sessions.push_back(std::move(*one));

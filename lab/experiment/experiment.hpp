@@ -84,11 +84,11 @@ struct NamedContents {
 /// A key of the experiment that is varied: over these values, or over a range.
 struct Axis {
     std::string key;                   // "both.delay", as after --set
-    std::vector<std::string> values{}; // as after the = of --set
+    std::vector<std::string> values{}; // as written after the = of --set
     // A range of numbers with the same unit, "0ms" and "200ms", both ends included.
     std::optional<std::string> from{};
     std::optional<std::string> to{};
-    std::optional<std::string> step{}; // from `from` on; nullopt: anything between
+    std::optional<std::string> step{}; // step of the values from `from` on; nullopt: any value
     /// The value that is taken for the truth. The results at the others are compared with those at
     /// this one.
     std::optional<std::string> reference{};
@@ -99,7 +99,7 @@ struct Axis {
 /// Points that are drawn from all axes at once, instead of all combinations of their values.
 struct LatinHypercube {
     std::uint32_t points = 0;
-    std::uint32_t seed = 1; // of the points; the sessions have their own
+    std::uint32_t seed = 1; // seed for drawing the points; the sessions have their own
 
     friend bool operator==(const LatinHypercube&, const LatinHypercube&) = default;
 };
@@ -107,7 +107,7 @@ struct LatinHypercube {
 /// The number of peers that play together, and the one of the experiment's scenes in which they do.
 struct Party {
     std::uint32_t peers = 2;
-    std::optional<std::size_t> scene{}; // nullopt: each task's own
+    std::optional<std::size_t> scene{}; // index in the scenes; nullopt: each task's own scene
 
     friend bool operator==(const Party&, const Party&) = default;
 };
@@ -143,7 +143,7 @@ struct SearchRanges {
 };
 
 /// The check of the limits' sensitivity to the way of measuring: the filters and hands with which
-/// they are searched again. In a text [convention].
+/// they are searched again. Its table in a text is [convention].
 struct Sensitivity {
     std::vector<metrics::FilterOrder> filter_orders{
         metrics::FilterOrder::first, metrics::FilterOrder::second, metrics::FilterOrder::fourth};
@@ -158,7 +158,7 @@ struct Sensitivity {
 
 /// Table 1: task P1 and the closed-loop tasks under the experiment's conditions.
 struct Table1 {
-    std::uint32_t rows_per_s = 100; // of the replays
+    std::uint32_t rows_per_s = 100; // rows per second of the replays
 
     friend bool operator==(const Table1&, const Table1&) = default;
 };
@@ -166,9 +166,10 @@ struct Table1 {
 /// Fig. 6: the level of each impairment at which half of the sessions fail.
 struct Limits {
     SearchRanges ranges{};
-    /// A session fails that is not at least of the tier: a limit for each.
+    /// The tiers for which limits are searched. A session fails if it is below the tier.
     std::vector<metrics::Tier> tiers{metrics::Tier::usable};
-    emulator::Order jitter_order = emulator::Order::free; // of messages under searched jitter
+    /// The order of messages when jitter is searched.
+    emulator::Order jitter_order = emulator::Order::free;
     std::optional<Sensitivity> sensitivity{};
 
     friend bool operator==(const Limits&, const Limits&) = default;
@@ -204,7 +205,8 @@ struct Calibration {
 /// The claims about algorithms beyond the paper's: claim_cells() are the conditions. Tasks, hands
 /// and peers are theirs.
 struct Claims {
-    std::uint32_t judging_seeds = 200; // that a claim needs: one of fewer is told as such
+    /// The number of seeds that a claim needs. The results show whether it had fewer.
+    std::uint32_t judging_seeds = 200;
 
     friend bool operator==(const Claims&, const Claims&) = default;
 };
@@ -218,31 +220,33 @@ using Kind = std::variant<Table1, Limits, Trajectories, ImpairmentGrid, Calibrat
 struct Experiment {
     std::string title;
     Kind kind{};
-    base::Duration duration{std::chrono::seconds{30}}; // of a session, hands off included
+    base::Duration duration{std::chrono::seconds{30}}; // length of a session, hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
     std::uint32_t seeds = 10;
-    std::uint32_t first_seed = 1001; // criteria are calibrated on 1 to 40
+    std::uint32_t first_seed = 1001; // 1 to 40 are the seeds for calibrating criteria
     std::vector<NamedAlgorithm> algorithms{};
     std::vector<device::Task> tasks{};
     std::vector<std::uint32_t> peers{2};
-    std::vector<NamedScene> scenes{}; // none: each task's own
+    std::vector<NamedScene> scenes{}; // empty: each task's own scene
     Hands hands{};
     device::TaskOptions task_options{};
-    std::vector<NamedTrace> replay{}; // none, or of those that act as A and as B
-    std::vector<NamedTrace> script{}; // likewise: where their simulated hands mean to be
+    /// Recorded hands of the players that act as A and as B; empty: there are none.
+    std::vector<NamedTrace> replay{};
+    /// Motions that the simulated hands of A and of B intend, instead of the task's; empty: none.
+    std::vector<NamedTrace> script{};
     peer::SendPolicy send{};
     peer::Playout playout = peer::Playout::none;
     /// A session is as long as its own script, and `duration` is that of the longest.
     bool is_as_long_as_scripts = false;
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
-    bool record = false;   // keeps records of the first seed's sessions
+    bool record = false;   // keep records of the first seed's sessions
     emulator::Path path{}; // the conditions that all sessions have in common
     /// The settings that single links have of their own, whatever is tried on all of them.
     std::vector<emulator::PathPatch> links{};
     /// The changes of the network in every session, at times since its first hello.
     std::vector<emulator::Change> timeline{};
-    std::vector<Axis> axes{}; // the same experiment again at each of the points of these
+    std::vector<Axis> axes{}; // the experiment is repeated at each point of these axes
     std::optional<LatinHypercube> latin_hypercube{};
     /// Every file that was read for it, by name. No key of the text has them.
     std::vector<NamedContents> files{};

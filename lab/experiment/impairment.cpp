@@ -13,7 +13,7 @@ namespace hapnet::lab::experiment {
 namespace {
 
 constexpr std::int64_t thousand = 1000;
-constexpr std::uint32_t burst_period = 100; // messages
+constexpr std::uint32_t burst_period = 100; // number of messages from one burst to the next
 constexpr base::Time level_time{base::Duration{0}, std::chrono::seconds{10}};
 
 base::Duration duration_of(ImpairmentLevel level)
@@ -43,7 +43,7 @@ void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Rea
     base::read_value(node, value, reading);
     const double thousandths = value.fraction() * 100.0 * thousand;
     const ImpairmentLevel level{std::llround(thousandths)};
-    constexpr double rounding = 1e-12; // of the text to a number
+    constexpr double rounding = 1e-12; // error of converting the text to a number
     if (std::abs(share_of(level).fraction() - value.fraction()) > rounding) {
         return reading.complain(node.place, "a level has at most three decimals, such as 92.5%");
     }

@@ -19,11 +19,11 @@ namespace hapnet::lab::experiment {
 
 /// One session and the reference for its scores.
 struct SessionJob {
-    std::size_t algorithm = 0; // of the experiment's
+    std::size_t algorithm = 0; // index in Experiment::algorithms
     device::Task task{};
     SessionSpec spec{};
     Party party{};
-    std::size_t trial = 0; // of the people whose hands play
+    std::size_t trial = 0; // index of the trial of the people whose hands play
 };
 
 /// The search for one limit.
@@ -64,7 +64,7 @@ struct SessionResult {
 struct CurvePoint {
     ImpairmentLevel level{};
     std::uint32_t seed = 1;
-    bool counts = false; // for one of the tiers, and not only for its coarse scan
+    bool counts = false; // true if its level counts for a tier, not only for a coarse scan
     metrics::Scores scores{};
     metrics::Tier tier{};
 };

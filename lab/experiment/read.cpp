@@ -274,7 +274,7 @@ Experiment read_experiment(const Node& document, Reading& reading)
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
     Experiment experiment = usual_experiment();
     const auto kinds = fmt::format("use one of {}", KindFormat{}.describe());
-    std::ignore = table.require("kind", kinds); // it decides which keys are known
+    std::ignore = table.require("kind", kinds); // the kind decides which keys are known
     base::read_fields(table, experiment);
     read_algorithms(table, experiment.algorithms);
     read_network(table, experiment);
@@ -314,13 +314,13 @@ std::string advice_on_key(std::string_view key)
 /// The source that an error names.
 struct Source {
     std::string name;
-    bool has_lines = true; // false: an option
+    bool has_lines = true; // false: it is an option of the command line
 };
 
 base::Result<Experiment> read_tree(const Node& document, const Source& source,
                                    const base::OpenFile& open)
 {
-    std::map<std::string, std::uint64_t> files; // that were read, with hashes of their contents
+    std::map<std::string, std::uint64_t> files; // hashes of all files read, by name
     base::OpenFile noting = [&](const std::string& name) {
         auto text = open ? open(name) : Reading{""}.open(name);
         if (text) files.insert_or_assign(name, base::Seed{}.stream(*text).bits(0));
@@ -382,7 +382,7 @@ std::string complaint_of_axis(const std::string& file_or_name, const base::OpenF
     if (!found || !document) return complaint;
     Node rest = *document;
     Node quick = taken(rest, "quick");
-    Node::List list; // of all axes, each with its place
+    Node::List list; // all axes, each with its place in the text
     for (const Node& axes : {taken(rest, "axis"), taken(quick, "axis")}) {
         const auto* several = std::get_if<Node::List>(&axes.value);
         if (several == nullptr) {

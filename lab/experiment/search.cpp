@@ -18,7 +18,7 @@ constexpr Thousandths gaps = counted_levels - 1;
 struct Onset {
     Thousandths low = 0;
     Thousandths high = 0;
-    bool is_any = false; // something failed
+    bool is_any = false; // true if any session failed
 };
 
 Thousandths rounded_up(Thousandths value, Thousandths unit)
@@ -46,7 +46,8 @@ public:
         for (Thousandths step = range.step.thousandths; onset && step > resolution_;) {
             const Thousandths span = onset->high - std::max<Thousandths>(onset->low, 0);
             const Thousandths finer = std::max(resolution_, rounded_up(span / 8, resolution_));
-            if (finer >= step || span <= 4 * finer) break; // no finer than what counts
+            // A scan need not be finer than the levels that count.
+            if (finer >= step || span <= 4 * finer) break;
             step = finer;
             onset = scanned(std::max<Thousandths>(onset->low, 0), onset->high, step);
         }

@@ -14,9 +14,10 @@ namespace hapnet::lab::experiment {
 /// Returns the number of the first `seeds` seeds that fail at a level. An error ends the search.
 using Failures = std::function<base::Result<std::uint32_t>(ImpairmentLevel, std::uint32_t seeds)>;
 
-inline constexpr std::uint32_t scan_seeds = 4;   // of a coarse scan
-inline constexpr std::size_t counted_levels = 8; // with all seeds
-inline constexpr std::size_t further_levels = 8; // at equal distance, where those do not reach
+inline constexpr std::uint32_t scan_seeds = 4;   // seeds at each level of a coarse scan
+inline constexpr std::size_t counted_levels = 8; // levels across the range that a scan found
+/// The number of levels that are added below or above before their distance doubles.
+inline constexpr std::size_t further_levels = 8;
 
 /// The levels that count, ascending: at each all seeds are played.
 ///

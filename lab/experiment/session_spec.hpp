@@ -19,7 +19,7 @@ namespace hapnet::lab::experiment {
 struct SessionSpec {
     virtual_time::Setting setting{};
     std::uint32_t rows_per_s = 0;
-    std::string algorithm{}; // what the experiment calls it; nothing follows from that
+    std::string algorithm{}; // name in the experiment, which does not affect the session
     /// The files that the experiment names. The setting has their contents, its texts only names.
     std::vector<NamedContents> files{};
     /// If set, only the distance of the copies this time after silence is kept: see claims.hpp.
@@ -30,7 +30,7 @@ struct SessionSpec {
 struct PlayedSession {
     metrics::Metrics metrics{};
     std::string rows{}; // CSV without a header: see replay.hpp; empty when none were to be kept
-    std::optional<double> apart_m{}; // of a session that ends in silence
+    std::optional<double> apart_m{}; // distance of the copies, if the session ends in silence
 };
 
 /// Plays a session, or gives what is known of it already.
@@ -43,7 +43,7 @@ struct SessionCase {
     device::Task task{};
     std::uint32_t seed = 1;
     Party party{};
-    std::size_t trial = 0; // of the people whose hands these are
+    std::size_t trial = 0; // index of the trial of the people whose hands play
 };
 
 [[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,

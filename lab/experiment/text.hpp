@@ -18,9 +18,9 @@ namespace hapnet::lab::experiment {
 
 /// Values of the command line that replace those of the text.
 struct Overrides {
-    bool quick = false;                // what the text says under [quick] counts
-    std::vector<std::string> settings; // "limit.delay.to=200ms": the last word
-    bool is_point = false;             // the settings are those of a point: its axes do not count
+    bool quick = false;                // apply the values under [quick] of the text
+    std::vector<std::string> settings; // such as "limit.delay.to=200ms"; they override the text
+    bool is_point = false;             // the settings are those of a point: ignore the text's axes
 };
 
 /// Reads an experiment. Errors begin with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: " when
@@ -37,7 +37,7 @@ struct Overrides {
 
 /// An experiment that every program carries with it: a file of scripts/experiments.
 struct BuiltInExperiment {
-    std::string_view name; // without .toml
+    std::string_view name; // file name without .toml
     std::string_view text;
 };
 
@@ -52,7 +52,7 @@ struct BuiltInExperiment {
 
 /// The experiment at one point of its axes.
 struct AxisPoint {
-    AxisValues values; // of the axes; empty: it has none
+    AxisValues values; // values of the axes at this point; empty: there are no axes
     Experiment experiment;
 };
 

@@ -25,7 +25,7 @@ inline constexpr double touching_m = 0.025;
 
 struct FitRules {
     std::optional<double> scale{}; // nullopt: the largest that fits, at most 1
-    double press_m = 0.004;        // the depth that T3 presses with 0.571 N by
+    double press_m = 0.004;        // depth at which T3 presses with 0.571 N
     double speed_max_m_per_s = 1.0;
 };
 
@@ -33,8 +33,9 @@ struct Fit {
     double scale = 1.0;
     /// Limit that keeps the scale from being larger: "workspace along x", "speed"; empty: nothing.
     std::string limited_by{};
-    double meeting_s = 0.0;      // from the beginning of the motion
-    double touching_share = 0.0; // of the time, in which both mean to be so near that they touch
+    double meeting_s = 0.0; // time when the hands are nearest, from the beginning of the motion
+    /// The share of the time in which the hands are near enough to touch the cube.
+    double touching_share = 0.0;
 };
 
 /// Scales and moves the motions of A and, if there is one, of B, which are equally long. The error

@@ -23,13 +23,13 @@ struct Person {
 
 /// The stretch of a recording that is taken, on the clock of the recording.
 struct Stretch {
-    double zero_s = 0.0; // its first row
+    double zero_s = 0.0; // time of the first row
     double from_s = 0.0;
     double to_s = 0.0;
 
     [[nodiscard]] std::size_t ticks() const
     {
-        constexpr double slack = 1e-6; // of a tick
+        constexpr double slack = 1e-6; // allowance for rounding, in ticks
         return static_cast<std::size_t>((to_s - from_s) * motion_rate_hz + slack) + 1;
     }
 };

@@ -23,17 +23,17 @@ struct TextFile {
 struct ImportRules {
     RecordingFormat format{};
     double smooth_hz = 6.0;
-    double longest_gap_s = 0.1; // a longer one is refused
+    double longest_gap_s = 0.1; // a recording with a longer gap is refused
     FitRules fit{};
-    std::optional<double> from_s{}; // from the first row on; nullopt: all
+    std::optional<double> from_s{}; // seconds after the first row; nullopt: from the beginning
     std::optional<double> to_s{};
     std::string subject{"1"};
-    std::string trial{}; // empty: as the first file is called
+    std::string trial{}; // empty: named after the first file
 };
 
 struct Imported {
     ImportedTrial trial;
-    std::vector<TextFile> scripts; // of A and of B: CSV that device::parse_hand_trace() reads
+    std::vector<TextFile> scripts; // scripts of A and of B: CSV for device::parse_hand_trace()
 };
 
 /// Makes scripts of the recorded motion of one or two people: of one file, or of one of A and one

@@ -42,7 +42,7 @@ glm::dvec3 between(const std::vector<Sample>& samples, std::size_t i, double tim
 /// One coordinate, forward and backward, with its reflections at both ends.
 void smooth_axis(Motion& motion, int axis, double cutoff_hertz)
 {
-    constexpr double periods = 3.0; // of the cutoff, within which the filter settles
+    constexpr double periods = 3.0; // periods of the cutoff within which the filter settles
     const auto reach = static_cast<std::size_t>(periods * motion_rate_hz / cutoff_hertz);
     const std::size_t count = motion.size();
     const std::size_t pad = std::min(reach, count - 1);
@@ -106,7 +106,7 @@ void smooth(Motion& motion, double cutoff_hertz)
 
 double speed_max_of(const Motion& motion)
 {
-    double most_m = 0.0; // in a tick
+    double most_m = 0.0; // longest distance in one tick
     for (std::size_t i = 1; i < motion.size(); ++i)
         most_m = std::max(most_m, glm::length(motion[i] - motion[i - 1]));
     return most_m * motion_rate_hz;

@@ -22,8 +22,8 @@ struct Gaps {
     std::uint64_t count = 0;
     double longest_s = 0.0;
     double total_s = 0.0;
-    std::size_t line_after_longest = 0; // of the file
-    double begin_of_longest_s = 0.0;    // on the clock of the recording
+    std::size_t line_after_longest = 0; // line in the file of the row after the longest gap
+    double begin_of_longest_s = 0.0;    // time on the clock of the recording
 };
 
 /// Returns the gaps between the samples from one time to another.

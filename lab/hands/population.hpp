@@ -27,7 +27,7 @@ struct Trial {
 
 /// Recorded hands of several people: a folder that hapnet-lab import hands wrote.
 struct Population {
-    std::string folder; // as it was named
+    std::string folder; // path of the folder, as it was given
     std::vector<Trial> trials;
 
     [[nodiscard]] std::size_t subjects() const;

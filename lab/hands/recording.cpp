@@ -136,7 +136,7 @@ private:
     const RecordingFormat& format_;
     base::NumberReader numbers_;
     std::vector<Track> tracks_;
-    std::vector<double> steps_s_; // between rows
+    std::vector<double> steps_s_; // times between rows
     double last_s_ = 0.0;
 };
 

@@ -18,7 +18,7 @@ namespace hapnet::lab::hands {
 
 /// Axes of a recording that become x (right), y (up), z (toward the user) of the scene: "x,z,-y".
 struct Axes {
-    std::array<int, 3> of{0, 1, 2}; // of the recording: 0 is its x
+    std::array<int, 3> of{0, 1, 2}; // axes of the recording for x, y, z: 0 is its x
     glm::dvec3 sign{1.0};
 
     [[nodiscard]] glm::dvec3 to_scene(const glm::dvec3& recorded) const
@@ -46,23 +46,23 @@ struct RecordingFormat {
     base::Columns columns{};
     /// Metres of 1 in columns that say no unit; nullopt: they have to.
     std::optional<double> m_per_unit{};
-    std::optional<double> rate_hz{}; // rows a second; nullopt: the table has times
+    std::optional<double> rate_hz{}; // rows per second; nullopt: the table has times
     Axes axes{};
 };
 
 /// The place of a hand at a time, in the axes of the scene.
 struct Sample {
-    double time_s = 0.0; // on the clock of the recording
+    double time_s = 0.0; // time on the clock of the recording
     glm::dvec3 place_m{0.0};
-    std::size_t line = 0; // of the file
+    std::size_t line = 0; // number of the line in the file
 };
 
 /// The recorded motion of one person in a table.
 struct Track {
-    std::vector<Sample>
-        samples;            // at least two, in the order of time; rows without a place left out
-    std::uint64_t rows = 0; // with those
-    double rate_hz = 0.0;   // stated, or one over the median time between rows
+    /// At least two, in the order of time. Rows without a place are left out.
+    std::vector<Sample> samples;
+    std::uint64_t rows = 0; // number of all rows, with or without a place
+    double rate_hz = 0.0;   // rows per second: as stated, or by the median time between rows
 };
 
 inline constexpr std::size_t recording_rows_max = 4'000'000;

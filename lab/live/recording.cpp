@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr base::Duration frames_least{std::chrono::milliseconds{20}}; // as of an emulator
+constexpr base::Duration frames_least{std::chrono::milliseconds{20}}; // as in an emulator
 
 std::string text_in(const nlohmann::json& config, const char* key)
 {

@@ -36,7 +36,7 @@ public:
 
     static constexpr bool is_read_only = true;
 
-    /// Since both had a row.
+    /// The time since the first moment at which both records have a row.
     [[nodiscard]] base::Duration at() const { return at_; }
     /// The time until one record has no further row, at most to the end of the session.
     [[nodiscard]] base::Duration length() const { return end_ - begin_; }
@@ -71,7 +71,7 @@ private:
     struct Playback {
         const record::Record* record = nullptr;
         records::Side side;
-        records::Clock clock; // against that of the first
+        records::Clock clock; // its clock, relative to that of side A
         std::uint16_t other = 0;
         peer::FrameTap tap;
         std::size_t ticks = 0;
@@ -86,10 +86,10 @@ private:
     static void show(Playback& one, const record::TickRow& tick);
     static void go_to(Playback& one, base::TimePoint time);
 
-    std::array<Playback, 2> playbacks_; // in the order of their ids
+    std::array<Playback, 2> playbacks_; // in the order of the peers' ids
     scene::Description scene_;
     base::Duration tick_;
-    base::TimePoint begin_; // on the first one's clock
+    base::TimePoint begin_; // time on the clock of side A
     base::TimePoint end_;
     base::Duration at_{};
     std::uint64_t frames_ = 0;

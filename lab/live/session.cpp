@@ -93,7 +93,7 @@ void Session::begin()
     hand_.clear();
     for (virtual_time::Setting& setting : settings_) {
         auto& page = setting.players.front().page;
-        if (page) page = std::make_shared<device::HandWishes>(); // without an old wish
+        if (page) page = std::make_shared<device::HandWishes>(); // drops earlier wishes
     }
     world_ = std::make_unique<World>(settings_, roomy);
     for (std::size_t group = 0; group < world_->groups(); ++group) {
@@ -107,7 +107,7 @@ void Session::begin()
     for (std::size_t seat = 0; seat < peers(); ++seat) {
         journals_.emplace_back(world_->side(seat), [this, seat](const record::Row& row) {
             const bool is_session = std::holds_alternative<record::SessionRow>(row);
-            if (is_shown_ || is_session) taps_[seat].take(row); // which session it is, is known
+            if (is_shown_ || is_session) taps_[seat].take(row); // taps always need session rows
         });
         taps_[seat].begin_anew();
     }

@@ -46,7 +46,7 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Since the first hello.
+    /// The time since the first hello.
     [[nodiscard]] base::Duration at() const { return world_->now() - World::start; }
     /// The time from the first hello to the session's end. Until the session is agreed on, it is an
     /// estimate.
@@ -58,7 +58,7 @@ public:
     /// Plays on for `by`, at most to the end. To play as fast as possible, call it again and again
     /// with steps of at least a tick.
     void play_on(base::Duration by) { play_to(at() + by); }
-    /// There from wherever it is, at once.
+    /// Goes to a time at once, back or forth.
     void seek(base::Duration time);
 
     /// Answers a request to the emulator. Its changes hold from now on, in all sessions. Later
@@ -101,7 +101,7 @@ private:
     using World = virtual_time::VirtualWorld;
     struct Request {
         base::Duration at{};
-        std::string line; // to the emulator; empty: `hand` is for the hand of a page
+        std::string line; // request to the emulator; empty: `hand` is for a page's hand
         std::optional<device::HandWish> hand{};
 
         [[nodiscard]] bool is_for_hand() const { return line.empty(); }
@@ -122,18 +122,18 @@ private:
     [[nodiscard]] PeerIntroduction introduce_peer(std::size_t seat) const;
 
     experiment::Experiment experiment_;
-    std::vector<virtual_time::Setting> settings_; // of each algorithm
+    std::vector<virtual_time::Setting> settings_; // one for each algorithm
     Presets presets_;
     std::unique_ptr<World> world_;
-    std::vector<emulator::Emulation> emulations_; // of each session's links
-    std::shared_ptr<emulator::Frames> frames_;    // of the first's
-    std::uint64_t lives_ = 0;                     // how often it has begun
-    std::vector<virtual_time::Journal> journals_; // of the first session's players
-    std::vector<peer::FrameTap> taps_;            // likewise
-    bool is_shown_ = true;                        // to those who watch
-    device::HandTrace hand_;                      // of a page, since the session is agreed on
-    std::vector<Request> requests_;               // ascending; those that changed something
-    std::size_t done_ = 0;                        // of them
+    std::vector<emulator::Emulation> emulations_; // one for the links of each session
+    std::shared_ptr<emulator::Frames> frames_;    // frames of the first session's links
+    std::uint64_t lives_ = 0;                     // how often the sessions have begun
+    std::vector<virtual_time::Journal> journals_; // one for each player of the first session
+    std::vector<peer::FrameTap> taps_;            // one for each player of the first session
+    bool is_shown_ = true;          // false: those who watch are not shown this part of a seek
+    device::HandTrace hand_;        // motion of a page's hand since the session was agreed on
+    std::vector<Request> requests_; // requests that changed something, by time
+    std::size_t done_ = 0;          // number of `requests_` that have been applied
     std::uint64_t digest_ = 0;
 };
 

@@ -68,7 +68,7 @@ std::optional<std::string> objection_to(std::span<const Scores> sessions, Criter
     constexpr double none = std::numeric_limits<double>::infinity();
     criteria.usable.vibration_max_m = {none, none, none};
     criteria.usable.slow_stiffness_error_max = none;
-    std::map<device::Task, std::pair<std::size_t, std::size_t>> counts; // failed, of
+    std::map<device::Task, std::pair<std::size_t, std::size_t>> counts; // failed sessions and all
     std::map<device::Task, std::string> reasons;
     for (const Scores& scores : sessions) {
         auto& [failed, all] = counts[scores.task];

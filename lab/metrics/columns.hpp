@@ -17,11 +17,11 @@ struct Columns {
     std::vector<double> body_x;
     std::vector<double> body_y;
     std::vector<double> hip_x;
-    std::vector<double> hand_force; // on the hand, by the device
-    std::vector<double> push;       // the length of the contact force
-    std::vector<double> work;       // that the hand did on the device from this tick to the next
-    std::vector<std::uint8_t> touching; // or holding
-    std::vector<std::uint8_t> follows;  // only others touch
+    std::vector<double> hand_force;     // force of the device on the hand
+    std::vector<double> push;           // length of the contact force
+    std::vector<double> work;           // work of the hand on the device from this tick to the next
+    std::vector<std::uint8_t> touching; // 1: this side's hand touches or holds
+    std::vector<std::uint8_t> follows;  // 1: only hands of other sides touch
 };
 
 [[nodiscard]] Columns columns_of(std::span<const virtual_time::Sample> side);

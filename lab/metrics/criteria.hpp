@@ -61,7 +61,7 @@ struct GoodCriteria {
 /// The two-tier convention. A convention and not a finding about people: the descriptions of the
 /// fields below say where each number comes from. SI units, ratios and shares as fractions.
 struct Criteria {
-    FilterOrder filter_order = FilterOrder::first; // of the high-pass by which vibration is judged
+    FilterOrder filter_order = FilterOrder::first; // order of the high-pass filter for vibration
     UsableCriteria usable{};
     GoodCriteria good{};
 

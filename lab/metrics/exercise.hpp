@@ -18,16 +18,16 @@ struct Stretch {
 /// The actions of a task's hands that metrics depend on, with the task's default options. A metric
 /// of an action that the task does not have is not measured.
 struct Exercise {
-    /// True if only one side at a time receives: its body's vibration counts then. Otherwise both
-    /// push, and count all the time.
+    /// True if the sides take turns: the vibration of a side's body counts only while the side
+    /// follows. Otherwise both sides push, and count all the time.
     bool by_turns = false;
-    bool along_path = false;              // device::path_x()
-    double path_pace = 1.0;               // of it
-    bool presses = false;                 // as device::press_schedule says
-    bool taps = false;                    // A taps while all rests
+    bool along_path = false;              // the body is to follow device::path_x()
+    double path_pace = 1.0;               // pace along that path: 1 is that of device::path_x()
+    bool presses = false;                 // hands press as device::press_schedule says
+    bool taps = false;                    // A taps while everything else rests
     std::optional<double> stopped_at_m{}; // x of the body at which the static cube stops it
-    std::span<const Stretch> contact{};   // while both hands are to push
-    std::span<const Stretch> lifted{};    // while the body is to be up
+    std::span<const Stretch> contact{};   // times in which both hands are to push
+    std::span<const Stretch> lifted{};    // times in which the body is to be up
 };
 
 [[nodiscard]] Exercise exercise_of(device::Task task);

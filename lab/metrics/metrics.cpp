@@ -90,7 +90,7 @@ std::optional<double> contact_lost(const TraceColumns& columns, const Columns& s
 void measure_side(const TraceColumns& columns, std::size_t index, Metrics& metrics)
 {
     const Columns& side = columns.sides[index];
-    const std::size_t role = index % 2; // A or B
+    const std::size_t role = index % 2; // 0: acts as A; 1: acts as B
     const auto note = [role]<typename Value>(BySide<Value>& of_roles,
                                              const std::optional<Value>& value) {
         of_roles[role] = worse(of_roles[role], value);

@@ -24,8 +24,10 @@ using BySide = std::array<std::optional<Value>, 2>;
 
 /// The frequencies at which stiffness is measured.
 inline constexpr std::array press_hertz{0.5, 1.0, 2.0};
-inline constexpr std::size_t judged_press = 1; // of them: of stiffness_ratio
-inline constexpr std::size_t slow_press = 0;   // the slowest
+/// The index of the frequency whose stiffness_ratio is reported.
+inline constexpr std::size_t judged_press = 1;
+/// The index of the slowest of the frequencies.
+inline constexpr std::size_t slow_press = 0;
 
 /// The metrics of a session, A to L, as measured. SI units. A metric that the task does not
 /// exercise is nullopt. scores_of() relates metrics to the unimpaired session where that is needed.

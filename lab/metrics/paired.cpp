@@ -75,7 +75,7 @@ double sign_test(std::uint32_t above, std::uint32_t below)
 {
     const std::uint32_t count = above + below;
     const std::uint32_t fewer = std::min(above, below);
-    double one = 1.0; // the probability of k of them, from k = 0 on
+    double one = 1.0; // the probability of exactly k signs below, from k = 0 on
     for (std::uint32_t i = 0; i < count; ++i) one /= 2.0;
     double sum = 0.0;
     for (std::uint32_t k = 0; k <= fewer; ++k) {

@@ -11,14 +11,14 @@ namespace hapnet::lab::metrics {
 
 /// Two algorithms that met the same hands and the same network, seed by seed.
 struct PairedTest {
-    double median = 0.0; // of a - b
-    Interval interval{}; // its 95 % interval, by resampling the seeds
+    double median = 0.0; // median of the differences a - b
+    Interval interval{}; // 95 % interval of the median, by resampling the seeds
     /// Two-sided p of the sign test (Arbuthnott 1710; Conover, "Practical Nonparametric
     /// Statistics", 3.4): the probability of so uneven a split of the signs if each were as likely.
     /// Seeds without a difference do not count; 1 when there are no others.
     double p = 1.0;
     std::uint32_t seeds = 0;
-    std::uint32_t above = 0; // seeds with a > b
+    std::uint32_t above = 0; // number of seeds with a > b
     std::uint32_t below = 0;
 };
 

@@ -44,7 +44,7 @@ struct Rise {
 
 Rise rise_of(Core core, double z)
 {
-    constexpr double far = 30.0, top = 3.4; // there exp(-exp(z)) is 1e-13
+    constexpr double far = 30.0, top = 3.4; // at `top`, exp(-exp(z)) is 1e-13
     if (core == Core::logistic) {
         const double share = 1.0 / (1.0 + base::exp(-std::clamp(z, -far, far)));
         return {share, share * (1.0 - share)};
@@ -182,8 +182,8 @@ double half_of(std::span<const FailCount> counts)
     return 2.0 * counts[0].failed < counts[0].of ? beyond : counts[0].level;
 }
 
-/// The fewest failures of so many that a sign test at 5 % takes for one half; 1 at least. As many
-/// passes are the fewest, too.
+/// The fewest failures, of `of` sessions, that a two-sided sign test at 5 % takes for one half; 1
+/// at least. The same number is the fewest passes.
 double fewest_for_half(double of)
 {
     constexpr double tail = 0.025;
@@ -207,7 +207,7 @@ std::optional<Interval> gap_of(std::span<const FailCount> counts)
     for (const FailCount& count : counts) {
         const bool is_below = count.failed < fewest;
         const bool is_above = count.of - count.failed < fewest;
-        if (is_below == is_above) return std::nullopt; // one half, or one seed
+        if (is_below == is_above) return std::nullopt; // compatible with one half, or a single seed
         if (is_below) low = count.level;
         if (is_above) high = std::min(high, count.level);
     }
@@ -287,7 +287,7 @@ Psychometric fitted(std::span<const FailCount> counts)
             const Posterior posterior{scaled, core, early, late};
             p = climbed(posterior, p, {-width, 2.0 * width});
             const double height = posterior.at(p);
-            if (best && height <= to_beat + 1e-6) continue; // the simplest that does
+            if (best && height <= to_beat + 1e-6) continue; // keep the simpler fit
             to_beat = highest = height;
             best = Psychometric{counts.front().level + unit * p.location,
                                 unit * base::exp(p.log_scale), early, late, core};

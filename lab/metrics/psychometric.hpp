@@ -46,8 +46,8 @@ enum class Core : std::uint8_t { logistic, gumbel };
 
 /// The fitted curve.
 struct Psychometric {
-    double location = 0.0; // a
-    double scale = 1.0;    // s, above 0
+    double location = 0.0; // a in psi(x)
+    double scale = 1.0;    // s in psi(x), above 0
     double early = 0.0;
     double late = 0.0;
     Core core = Core::logistic;

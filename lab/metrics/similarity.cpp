@@ -18,7 +18,7 @@ constexpr double weakest_felt_n = 0.05;
 constexpr double strongest_n = 3.3;
 constexpr double window_s = 0.050;
 constexpr double lag_max_s = 0.5;
-constexpr double coarse_s = 0.010; // of the search for the lag
+constexpr double coarse_s = 0.010; // step of the coarse search for the lag
 constexpr double length_min_s = 1.0;
 
 /// Sums over pairs of two signals, from which follow their means and variances.

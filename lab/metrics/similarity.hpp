@@ -11,8 +11,8 @@ namespace hapnet::lab::metrics {
 
 /// The similarity of one force to another once the delay is taken out.
 struct Similarity {
-    double share = 0.0; // 1: the same; can be below 0
-    double lag_s = 0.0; // that was taken out
+    double share = 0.0; // 1: identical; can be below 0
+    double lag_s = 0.0; // delay that was taken out
 
     friend bool operator==(const Similarity&, const Similarity&) = default;
 };

@@ -13,7 +13,7 @@ std::optional<Spread> spread_of(std::span<const double> values)
     double sum = 0.0;
     for (const double value : values) sum += value;
     Spread spread{.mean = sum / count, .min = values.front(), .max = values.front()};
-    double squares = 0.0; // of distances to the mean: a second pass keeps its digits
+    double squares = 0.0; // squared distances to the mean: a second pass is more precise
     for (const double value : values) {
         spread.min = std::min(spread.min, value);
         spread.max = std::max(spread.max, value);

@@ -11,7 +11,7 @@ namespace hapnet::lab::metrics {
 
 /// The abruptness of a force's changes.
 struct ForceSteps {
-    double largest_n = 0.0; // in one millisecond
+    double largest_n = 0.0; // largest change in one millisecond
     /// The number of changes of more than 0.5 N/ms that are followed by one of the other sign.
     /// Smaller changes in between do not matter.
     double reversals = 0.0;

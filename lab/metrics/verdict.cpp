@@ -15,7 +15,7 @@ namespace {
 struct Wording {
     std::string_view name;
     std::string_view unit;
-    double scale = 1.0; // of the unit in SI
+    double scale = 1.0; // factor from SI units to `unit`
 };
 
 constexpr Wording vibration_words{"vibration", " mm", 1e3};

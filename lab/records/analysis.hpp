@@ -61,7 +61,7 @@ struct PairAnalysis {
     std::int64_t id_b = 0;
     Analysis analysis;
 
-    [[nodiscard]] std::string name() const; // "1-2"
+    [[nodiscard]] std::string name() const; // both ids, such as "1-2"
 };
 
 /// The analysis of one session of three to eight peers: every two of their records are compared.

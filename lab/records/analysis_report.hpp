@@ -46,8 +46,12 @@ constexpr auto fields_of(base::Tag<PairReport>)
 
 /// The output of `analyse --json`: docs/formats/statistics.md.
 struct AnalysisReport {
-    Analysis all; // of more than two the first two by their ids, with the worst of all pairs
-    std::optional<std::optional<std::string>> worst_pair{}; // the inner: none was ever compared
+    /// The analysis of two peers; of more, that of the first two by their ids, with the worst
+    /// discrepancies of all pairs.
+    Analysis all;
+    /// The pair whose copies were farthest apart on average. The inner nullopt: no pair was ever
+    /// compared. The outer nullopt: there are two peers only.
+    std::optional<std::optional<std::string>> worst_pair{};
     std::optional<base::Entries<PairReport>> pairs{};
     std::optional<base::Entries<LoopReport>> peers{};
 };

@@ -45,8 +45,8 @@ private:
 
 /// The distance and the angle between two copies of a body.
 struct Apart {
-    base::Displacement distance; // from B's copy to A's
-    double angle_rad = 0.0;      // between their orientations, 0 to pi
+    base::Displacement distance; // vector from B's copy to A's
+    double angle_rad = 0.0;      // angle between the orientations of the copies, 0 to pi
 };
 
 /// The copies of one body in a session.

@@ -19,18 +19,18 @@ struct TimedValue {
 /// The distance and the angle between the copies of one body over time.
 struct BodyCurves {
     std::string name;
-    std::vector<TimedValue> apart_mm;         // in space
-    std::vector<TimedValue> turned_apart_deg; // empty: it cannot turn
+    std::vector<TimedValue> apart_mm;         // distance in three dimensions
+    std::vector<TimedValue> turned_apart_deg; // empty: the body cannot turn
 };
 
 /// The course of a session over time: every tick in which a peer took part, hands off included.
 struct SessionCurves {
-    std::vector<TimedValue> cube_a_mm; // x of each copy of the cube
+    std::vector<TimedValue> cube_a_mm; // x of the cube in each copy
     std::vector<TimedValue> cube_b_mm;
     std::vector<TimedValue> apart_mm;  // |x_A - x_B| of the first body at equal times
-    std::vector<TimedValue> force_a_n; // the force that each device was told
+    std::vector<TimedValue> force_a_n; // length of the force that each device was told
     std::vector<TimedValue> force_b_n;
-    std::vector<double> late_a_us; // how late each of these ticks was
+    std::vector<double> late_a_us; // lateness of each tick in the curves above
     std::vector<double> late_b_us;
     PathsOverTime paths;
     /// The curves of each body, where there are several bodies or one that can turn.

@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 using virtual_time::VirtualPlayer;
 using virtual_time::VirtualWorld;
 
-constexpr base::Duration begins_in{60s}; // or never
+constexpr base::Duration begins_in{60s}; // a session that has not begun by then never does
 constexpr std::uint64_t tick_ns_of_records = 1'000'000;
 
 nlohmann::json ids_but(std::size_t seat, std::size_t players)

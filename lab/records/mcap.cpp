@@ -116,8 +116,8 @@ void McapWriter::finish()
     put(statistics, times_.messages);
     put(statistics, schemas_count_);
     put(statistics, static_cast<std::uint32_t>(messages_by_channel_.size()));
-    put(statistics, std::uint32_t{0}); // attachments
-    put(statistics, std::uint32_t{0}); // metadata
+    put(statistics, std::uint32_t{0}); // no attachments
+    put(statistics, std::uint32_t{0}); // no metadata
     put(statistics, chunks_);
     put(statistics, times_.first);
     put(statistics, times_.last);
@@ -180,7 +180,7 @@ void McapWriter::end_chunk()
     emit(record(Opcode::chunk, content));
     const auto length = offset_ - start;
 
-    std::string offsets; // of the message indexes
+    std::string offsets; // where the message index of each channel begins
     const auto indexes_start = offset_;
     for (const auto& [channel, entries] : index_) {
         put(offsets, channel);

@@ -51,16 +51,16 @@ private:
 
     Take take_;
     std::uint64_t offset_ = 0;
-    std::string schemas_;  // records
-    std::string channels_; // records
+    std::string schemas_;  // schema records, written again in the summary
+    std::string channels_; // channel records, written again in the summary
     std::uint16_t schemas_count_ = 0;
     std::map<std::uint16_t, std::uint64_t> messages_by_channel_;
     Times times_;
 
-    std::string chunk_; // records of messages
+    std::string chunk_; // message records of the chunk that is being filled
     Index index_;
     Times chunk_times_;
-    std::string chunk_indexes_; // records
+    std::string chunk_indexes_; // chunk index records, written in the summary
     std::uint32_t chunks_ = 0;
 };
 

@@ -15,7 +15,7 @@ struct Moment {
     const record::TickRow* a;
     const record::TickRow* before;
     const record::TickRow* after;
-    double share; // of the way from `before` to `after`
+    double share; // position of A's tick between `before` and `after`, 0 to 1
 
     [[nodiscard]] bool both_in(record::Phase phase) const
     {

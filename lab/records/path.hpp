@@ -16,8 +16,9 @@ namespace hapnet::lab::records {
 
 /// The outcome of the state messages of one session in one direction.
 struct Path {
-    /// `sent` by the sender's record; in a circle that knows it only of messages to the first
-    /// other. To the rest: up to the highest that came.
+    /// The counts of messages. `sent` is that of the sender's record. Among more than two peers the
+    /// record counts only the messages to the first other peer; for the rest, `sent` is the highest
+    /// sequence that arrived.
     base::ArrivalCounts arrived;
     /// Share of the sequences up to the highest received that never came, 0 to 1; nullopt when
     /// nothing came. Messages after it may still have been on their way.
@@ -63,9 +64,9 @@ enum class Way : std::uint8_t { a_to_b, b_to_a };
 /// A state message of the session that has arrived.
 struct ArrivedMessage {
     std::uint32_t sequence = 0;
-    base::TimePoint sent{}; // on A's clock
+    base::TimePoint sent{}; // the sender's stamp, on A's clock
     base::Duration delay{};
-    bool is_duplicate = false; // another copy has arrived before
+    bool is_duplicate = false; // true if another copy has arrived before
 };
 
 /// The messages in the order of arrival.

@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::int64_t stretches_max = 100;
-constexpr std::size_t messages_min = 50; // of a stretch, on average
+constexpr std::size_t messages_min = 50; // messages of a stretch, on average
 
 double in_ms(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
 
@@ -26,7 +26,7 @@ Messages messages_of(const Session& session, Way way)
 {
     Messages messages = arrived_messages(session, way);
     std::erase_if(messages, [](const ArrivedMessage& one) {
-        return one.is_duplicate || one.sequence == 0; // which no peer sends
+        return one.is_duplicate || one.sequence == 0; // no peer sends sequence 0
     });
     std::ranges::stable_sort(messages, {}, &ArrivedMessage::sequence);
     return messages;
@@ -114,7 +114,7 @@ private:
 
     base::Duration stretch_;
     PathOverTime path_;
-    std::vector<base::DurationSample> delays_; // of each stretch
+    std::vector<base::DurationSample> delays_; // delays in each stretch
 };
 
 /// Returns when the first message of the session was sent, by the sender's record; nullopt: it does

@@ -22,9 +22,10 @@ struct DelaySpan {
 struct PathStretch {
     double from_s = 0.0; // since the session's start, on A's clock
     double to_s = 0.0;
-    std::uint64_t sent = 0; // up to the highest sequence that arrived
+    /// The number of messages sent. Losses after the highest sequence that arrived are not known.
+    std::uint64_t sent = 0;
     std::uint64_t received = 0;
-    std::optional<DelaySpan> delay_ms{}; // nullopt: none arrived
+    std::optional<DelaySpan> delay_ms{}; // nullopt: no message arrived
 
     /// The share that was lost; nullopt: none was sent.
     [[nodiscard]] std::optional<double> loss() const
@@ -36,8 +37,8 @@ struct PathStretch {
 
 /// One direction of a session over time. A message is there once, however many copies came.
 struct PathOverTime {
-    std::vector<PathStretch> stretches; // one after another, as long as messages were sent
-    std::vector<double> delays_ms;      // of all messages in the stretches
+    std::vector<PathStretch> stretches; // consecutive, up to the last one with a message sent
+    std::vector<double> delays_ms;      // delays of all messages in the stretches
 };
 
 struct PathsOverTime {

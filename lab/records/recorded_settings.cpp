@@ -49,12 +49,13 @@ struct WrittenConfig {
     double duration_s = 0.0;
     std::string task;
     std::optional<std::string> boot_id{};
-    std::optional<std::vector<std::uint16_t>> peers{}; // the others; older ones have one
+    /// The ids of the others. Older records have one other peer and no list.
+    std::optional<std::vector<std::uint16_t>> peers{};
     std::optional<std::uint16_t> wait_for{};
     std::string scene_toml;
     std::string algorithm_toml;
     std::optional<std::string> send{};      // older records do not have it
-    std::optional<peer::Playout> playout{}; // likewise
+    std::optional<peer::Playout> playout{}; // older records do not have it
     std::string governor_toml;
     WrittenMount mount{};
 };

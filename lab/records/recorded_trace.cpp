@@ -34,7 +34,7 @@ virtual_time::Sample sample_of(const record::TickRow& row)
 /// The rows of a side while it was running, on A's clock, asked in the order of time.
 class RunningRows {
 public:
-    /// `clock`: of these rows as B's against A's; none where they are A's.
+    /// `clock` relates the clock of these rows, as B's, to A's; it is empty if the rows are A's.
     RunningRows(const Side& side, const Clock& clock, const std::vector<RecordedBody>& bodies)
         : clock_{clock}
     {
@@ -53,8 +53,8 @@ public:
 
     struct Reading {
         virtual_time::Sample sample;
-        std::vector<virtual_time::Pose> further; // bodies after the first
-        bool is_bridged = false;                 // there is no row near it
+        std::vector<virtual_time::Pose> further; // poses of the bodies after the first
+        bool is_bridged = false;                 // true: a row is missing around that time
     };
     /// Returns the reading at a time from begin() to end(), not before the last one asked for.
     [[nodiscard]] Reading at(base::TimePoint time)
@@ -91,7 +91,7 @@ private:
         return reading;
     }
 
-    std::vector<Poses> poses_; // of each body
+    std::vector<Poses> poses_; // poses of each body
     std::span<const record::TickRow> rows_;
     Clock clock_;
     std::size_t at_ = 0;

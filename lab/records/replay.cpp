@@ -38,10 +38,10 @@ public:
     [[nodiscard]] const device::Sample& read(base::TimePoint /*now*/) const { return sample_; }
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now)
     {
-        device::Sample own = sample_; // in the device's frame
+        device::Sample own = sample_; // the hand in the device's frame
         own.hip = mount_.to_device(sample_.hip);
         own.velocity = mount_.to_device(sample_.velocity);
-        if (was_withheld_) { // as a person had decided, which no row explains
+        if (was_withheld_) { // a person's decision, which no row explains
             std::ignore = governor_.govern({{}, false}, own, now);
             return {};
         }
@@ -62,7 +62,7 @@ public:
 private:
     device::Mount mount_;
     device::Governor governor_;
-    device::Sample sample_; // in the scene
+    device::Sample sample_; // the hand in the scene's frame
     bool was_at_fault_ = false;
     bool was_withheld_ = false;
 };
@@ -153,11 +153,11 @@ public:
 
 private:
     const record::Record& record_;
-    std::vector<std::uint16_t> others_; // by their ids
+    std::vector<std::uint16_t> others_; // ids of the other peers, ascending
     RecordedRig rig_;
     peer::Side side_;
     std::size_t message_ = 0;
-    std::size_t body_ = 0; // the next row
+    std::size_t body_ = 0; // index of the next row of bodies
 };
 
 std::optional<std::string> gap_in(const record::Record& record)

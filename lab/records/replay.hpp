@@ -20,11 +20,11 @@ namespace hapnet::lab::records {
 /// One tick of the replay.
 struct ReplayedTick {
     std::uint64_t tick = 0;
-    base::TimePoint at; // as in the record
+    base::TimePoint at; // time of the tick in the record
     base::Force recorded_contact;
-    base::Force contact; // of the scene on the hand, before the governor
+    base::Force contact; // force of the scene on the hand, before the governor
     base::Force recorded_device;
-    base::Force device; // what the governor left of it
+    base::Force device; // force that the governor let through to the device
 };
 
 /// A recorded session, lived through again in virtual time.
@@ -32,9 +32,10 @@ struct Replayed {
     std::vector<ReplayedTick> ticks;
     std::size_t messages = 0;
     std::string algorithm;
-    bool is_the_recorded_one = true;       // the algorithm
-    double contact_difference_max_n = 0.0; // between recorded and replayed, over all ticks
-    double device_difference_max_n = 0.0;  // likewise
+    bool is_the_recorded_one = true; // true if `algorithm` is that of the record
+    /// The largest differences between recorded and replayed forces, over all ticks and axes.
+    double contact_difference_max_n = 0.0;
+    double device_difference_max_n = 0.0;
     /// The largest difference of the places and orientations of all bodies that the record has rows
     /// of; nullopt: it has none.
     std::optional<double> body_difference_max_m;
@@ -44,7 +45,7 @@ struct Replayed {
     std::optional<std::uint64_t> other_owner_ticks;
     /// The first tick with more than the tolerances.
     std::optional<std::uint64_t> differs_from;
-    bool is_complete = false; // its last tick is one of the session's end: nothing is cut off
+    bool is_complete = false; // true if the last tick has phase `ended`: nothing is cut off
 };
 
 /// Rounding that a printed and read-again description of a session may leave.

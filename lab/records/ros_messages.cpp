@@ -66,7 +66,7 @@ public:
         constexpr std::string_view frame = "hapnet";
         put(static_cast<std::uint32_t>(time_ns / second));
         put(static_cast<std::uint32_t>(time_ns % second));
-        put(static_cast<std::uint32_t>(frame.size() + 1)); // with its end
+        put(static_cast<std::uint32_t>(frame.size() + 1)); // including the final zero byte
         bytes_ += frame;
         bytes_ += '\0';
     }
@@ -162,7 +162,7 @@ private:
     std::uint16_t hip_ = 0;
     std::uint16_t contact_ = 0;
     std::uint16_t device_ = 0;
-    std::uint16_t body_ = 0; // of records without rows of bodies
+    std::uint16_t body_ = 0; // channel of the body in a record without rows of bodies
     std::map<std::uint16_t, std::uint16_t> bodies_;
 };
 

@@ -29,7 +29,7 @@ struct Clock {
     base::Duration offset{};
     base::Duration uncertainty{};
     base::TimePoint when{};
-    double skew = 0.0; // by what share B's runs faster; small
+    double skew = 0.0; // share by which B's clock runs faster than A's; far below 1
 
     [[nodiscard]] base::TimePoint to_a(base::TimePoint on_b) const
     {
@@ -81,10 +81,10 @@ struct Side {
 
 /// One of the bodies that a session shared.
 struct RecordedBody {
-    std::optional<std::uint16_t> number{}; // in the scene, from 0; nullopt: not said
-    std::string name{};                    // of the scene; may be empty
+    std::optional<std::uint16_t> number{}; // number in the scene, from 0; nullopt: not recorded
+    std::string name{};                    // name in the scene; may be empty
     bool can_turn = false;
-    bool has_rows = false; // of its own; otherwise the ticks hold it
+    bool has_rows = false; // true: it has rows of its own; false: only the ticks have its place
 };
 
 /// A session as the records of two peers have it.

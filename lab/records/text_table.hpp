@@ -15,15 +15,15 @@ struct TextTable {
     struct Row {
         std::string name;
         std::vector<std::string> cells;
-        std::string note{}; // after the cells
+        std::string note{}; // text after the last cell
     };
 
-    std::string caption; // what a page says above it
-    std::string unit;    // above the names of the rows; can be empty
+    std::string caption; // heading on a page; a terminal does not show it
+    std::string unit;    // heading of the column with the row names; can be empty
     std::vector<std::string> heads;
     std::vector<Row> rows{};
-    std::vector<std::string> remarks{}; // below it, a line each
-    std::size_t cell_width = 10;        // in a terminal
+    std::vector<std::string> remarks{}; // lines below the table
+    std::size_t cell_width = 10;        // characters per cell in a terminal
 };
 
 /// Lines of text: names to the left, cells to the right.

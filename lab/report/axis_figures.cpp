@@ -23,7 +23,7 @@ constexpr page::Size panel{360.0, 240.0};
 /// A measure that is drawn against the axis.
 struct Measure {
     std::string_view key;
-    std::string_view title; // of the figures together
+    std::string_view title; // title of the group of figures
     std::string_view label;
     std::string_view unit;
 };

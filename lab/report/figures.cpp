@@ -30,7 +30,7 @@ std::vector<double> numbers_of(const Rows& rows, std::string_view key)
 
 // --- Fig. 7
 
-constexpr std::size_t points_max = 6000; // a curve: finer than pixels even when zoomed
+constexpr std::size_t points_max = 6000; // for a curve: finer than pixels even when zoomed
 
 std::vector<page::Point> points_of(const Rows& rows, std::string_view key)
 {
@@ -43,9 +43,9 @@ std::vector<page::Point> points_of(const Rows& rows, std::string_view key)
 /// A value that is drawn of both sides over time.
 struct BothSides {
     std::string_view id;
-    std::string_view title; // after the algorithm's name
-    std::string_view names; // of the curves, before the side's letter
-    std::string_view keys;  // of the columns, likewise
+    std::string_view title; // text after the algorithm's name
+    std::string_view names; // prefix of the curves' names, before the side's letter
+    std::string_view keys;  // prefix of the columns' keys, before the side's letter
     page::Axis y;
 };
 const std::array drawn_of_both{
@@ -97,7 +97,7 @@ page::Figure difference_figure(const Rows& rows)
 /// Describes the visible result: how far copies are apart, and how a copy moves that follows.
 std::string apart_text(const Rows& rows)
 {
-    constexpr double step_mm = 5.0; // no hand moves a cube so far between two rows
+    constexpr double step_mm = 5.0; // no hand moves a cube by this much between two rows
     double sum = 0.0, most = 0.0;
     std::size_t steps = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -205,7 +205,7 @@ constexpr std::array<std::string_view, 6> colours{"base",  "sep",    "dead-recko
 void add_precision_figure(const Rows& rows, FigureGroup& group)
 {
     auto values = distinct(rows, "value");
-    std::ranges::reverse(values); // the last first, mostly the finest
+    std::ranges::reverse(values); // last value first, which is usually the finest
     const bool is_one = rows.size() == values.size();
     std::vector<page::Curve> curves;
     const auto begin = [&](const std::string& name) {
@@ -293,7 +293,7 @@ FigureGroups tasks_figures(const results::Results& results)
     FigureGroup group;
     for (const std::string& task : distinct(results.rows("tasks"), "task")) {
         page::Dots dots;
-        double seeds = 0.0; // the same of each algorithm
+        double seeds = 0.0; // the same for each algorithm
         const Rows of_task = where(results.rows("sessions"), "task", task);
         for (const std::string& algorithm : distinct(of_task, "algorithm")) {
             auto values = numbers_of(where(of_task, "algorithm", algorithm), "mean_mm");

@@ -15,7 +15,8 @@ namespace hapnet::lab::report {
 struct FigureGroup {
     std::string title;
     std::vector<page::Figure> figures;
-    std::vector<std::string> origins{}; // files that they were made from, besides their numbers
+    /// Files from which the figures were made, besides those of their numbers.
+    std::vector<std::string> origins{};
 };
 using FigureGroups = std::vector<FigureGroup>;
 

@@ -198,7 +198,7 @@ struct Criterion {
     std::string_view unit;
     std::string_view key;
     page::Scale scale;
-    double (*threshold)(const metrics::Criteria&); // of what is usable
+    double (*threshold)(const metrics::Criteria&); // limit of a usable session
 };
 
 constexpr std::array criteria_drawn{

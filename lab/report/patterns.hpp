@@ -60,10 +60,10 @@ using results::TableRow;
 /// columns bound, missed, ci_low and ci_high say more about a bar that is not outlined.
 struct BarPattern {
     std::string series;
-    std::string value; // a key; a row without this number has no such bar
+    std::string value; // key of a column; a row without a number there has no such bar
     std::string text;
     std::string tip;
-    bool is_outlined = false; // for what others measured
+    bool is_outlined = false; // true for values that others measured
 };
 /// A group for each text that the pattern of groups gives.
 [[nodiscard]] page::Bars bars_of(const Rows& rows, std::string_view group,
@@ -75,10 +75,10 @@ enum class Together : std::uint8_t { each, median, mean };
 
 /// A curve of each algorithm through what stands in two columns.
 struct CurvePattern {
-    std::string_view x; // keys
+    std::string_view x; // keys of the columns with x and y
     std::string_view y;
     Together together = Together::each;
-    bool is_line = true; // else only points
+    bool is_line = true; // false: points only
     bool shows_points = false;
 };
 [[nodiscard]] std::vector<page::Curve> curves_of(const Rows& rows, const CurvePattern& pattern);

@@ -69,7 +69,7 @@ std::string spaced(std::string_view text)
     const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
     const auto is_unit = [](char c) { return (c >= 'a' && c <= 'z') || c == '%'; };
     std::string out;
-    bool is_number = false; // all of this word so far
+    bool is_number = false; // true while the current word is a number
     for (const char c : text) {
         if (is_number && is_unit(c)) out += ' ';
         is_number = is_digit(c) && (is_number || out.empty() || out.back() == ' ');

@@ -88,8 +88,8 @@ std::string table1_title(const Results& results)
 /// A section of a page. It is there where its table has rows.
 struct SectionKind {
     std::string_view id;
-    std::string_view title{}; // empty: `title_of` says it
-    std::string_view table{}; // empty: `is_there` says it
+    std::string_view title{}; // empty: see `title_of`
+    std::string_view table{}; // empty: see `is_there`
     FigureGroups (*figures)(const Results&) = nullptr;
     std::string (*title_of)(const Results&) = nullptr;
     bool (*is_there)(const Results&) = never;

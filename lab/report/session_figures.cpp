@@ -19,7 +19,7 @@ namespace {
 
 using Values = std::vector<records::TimedValue>;
 
-constexpr std::size_t curve_points_max = 4000; // a curve: finer than pixels, and no peak is lost
+constexpr std::size_t curve_points_max = 4000; // per curve: finer than pixels, and no peak is lost
 /// The colours of the bodies of a session, in their order; there are eight at most.
 constexpr std::array<std::string_view, 8> body_colours{"left",   "right", "sep",        "other",
                                                        "missed", "met",   "calibrated", "muted"};

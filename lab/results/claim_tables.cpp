@@ -41,7 +41,7 @@ struct Wanted {
 
 /// A number of a claim, of all seeds.
 struct Number {
-    std::string name; // empty: the claim's only one
+    std::string name; // empty: it is the claim's only number
     std::vector<double> values{};
     Wanted wanted{};
     std::string_view unit{};
@@ -179,7 +179,7 @@ double energy_bound_mj(const experiment::ClaimCell& cell)
 {
     const peer::RemoteProxyOptions proxy;
     constexpr double age_max_s = 0.4;
-    constexpr double burst_s = 0.1; // the longest gap of a burst, and by far of 97 % loss: 0.3
+    constexpr double burst_s = 0.1; // the longest gap of a burst; with loss it is age_max_s
     const double gap_s = cell.loss_percent > 0 ? age_max_s : cell.burst_of_100 > 0 ? burst_s : 0.0;
     const double age_s =
         std::min(age_max_s, 1e-3 * static_cast<double>(cell.delay_ms + cell.jitter_ms) + gap_s);
@@ -338,7 +338,7 @@ private:
                                    if (!drawn) return std::nullopt;
                                    return energy_bound_mj(*session.cell) - *drawn;
                                });
-        margin.wanted = {.least = 0.0, .by = JudgedBy::each}; // it bounds every session
+        margin.wanted = {.least = 0.0, .by = JudgedBy::each}; // the bound holds for every session
         margin.unit = "mJ";
         add("energy of all hands above its bound, by", {margin});
     }

@@ -25,7 +25,7 @@ struct ClaimSession {
 
 struct ClaimSessions {
     std::vector<ClaimSession> sessions; // in the order of the jobs
-    std::vector<double> silence_m;      // how far apart, of the first algorithm
+    std::vector<double> silence_m;      // distances of copies after silence, first algorithm
 };
 
 [[nodiscard]] ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,

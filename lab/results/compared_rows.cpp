@@ -41,9 +41,9 @@ bool is_condition(std::string_view column)
 /// The sessions of a table by the texts of their conditions.
 struct Sessions {
     const Table& table;
-    std::vector<std::string> conditions{}; // columns
+    std::vector<std::string> conditions{}; // keys of the columns that are conditions
     std::map<std::vector<std::string>, TableRow> rows{};
-    std::vector<std::vector<std::string>> order{}; // of the table
+    std::vector<std::vector<std::string>> order{}; // keys of `rows`, in the order of the table
 };
 
 base::Result<Sessions> sessions_in(const SessionsTable& of)
@@ -156,7 +156,7 @@ base::Result<Table> compare_sessions(const SessionsTable& a, const SessionsTable
     const auto algorithm = place_of(of_a->conditions, "algorithm");
     const auto task = place_of(of_a->conditions, "task");
     const ConditionNames names{*of_a};
-    std::vector<SessionGroup> groups; // as they come
+    std::vector<SessionGroup> groups; // in the order of A's sessions
     const auto group_of = [&](const std::vector<std::string>& key, const std::string& conditions) {
         const auto found = std::ranges::find_if(groups, [&](const SessionGroup& group) {
             return group.algorithm == key[algorithm] && group.task == key[task] &&

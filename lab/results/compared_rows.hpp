@@ -13,8 +13,8 @@ inline constexpr const char* all_conditions = "all";
 
 /// The sessions of a folder.
 struct SessionsTable {
-    const Table& table; // sessions, or sessions_by_axis
-    std::string path;   // of its file, for errors
+    const Table& table; // the table sessions, or sessions_by_axis
+    std::string path;   // path of the table's file, for error messages
 };
 
 /// The table compared: measures of the sessions that two folders have in common. It pairs the

@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double paper_min_mm = 0.0;
-constexpr double mean_tolerance = 0.15; // of the paper's mean
+constexpr double mean_tolerance = 0.15; // share of the paper's mean
 
 /// Column "No Time Delay Compensation" of the paper's Table 1.
 PaperRow paper_row() { return paper_table1("base").value(); }
@@ -29,7 +29,7 @@ constexpr double delay_tolerance_ms = 1.0;
 constexpr double messages_per_s = 1000.0;
 constexpr double messages_tolerance_per_s = 5.0;
 
-constexpr std::size_t cell_width = 9; // in a terminal
+constexpr std::size_t cell_width = 9; // characters per cell in a terminal
 
 constexpr std::array<std::string_view, 2> ways{"up", "down"};
 

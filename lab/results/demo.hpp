@@ -34,7 +34,7 @@ struct DemoRun {
 
 /// Another task of the demo, of two hands or more: T7 or T8.
 struct CircleDemo {
-    std::string folder; // that of the task: "t7", "t8"
+    std::string folder; // folder of the task: "t7" or "t8"
     SessionFiles files;
 };
 

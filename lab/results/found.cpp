@@ -32,10 +32,10 @@ struct Group {
     std::string_view algorithm;
     device::Task task{};
     std::vector<metrics::Scores> scores{};
-    std::string_view rows{}; // of the first seed
+    std::string_view rows{}; // rows of the replay of the first seed
     experiment::Party party{};
     scene::Description scene{};
-    std::vector<std::string> subjects{}; // of each session; of simulated hands none
+    std::vector<std::string> subjects{}; // subject of each session; empty with simulated hands
 };
 
 /// Returns the results of single sessions, by algorithm and task. Each point of a grid starts a new
@@ -290,7 +290,8 @@ struct ResultsOf {
             const auto& session = std::get<experiment::SessionResult>(result);
             scores.push_back(scores_of(session.metrics, session.reference));
         }
-        const auto half = std::span{scores}.first(scores.size() / 2); // the first of two conditions
+        // The first half of the sessions is of the first of two conditions.
+        const auto half = std::span{scores}.first(scores.size() / 2);
         const auto rest = std::span{scores}.subspan(half.size());
         return calibrated({half, rest}, criteria).map([this](const metrics::Criteria& found) {
             return Found{{sessions()},

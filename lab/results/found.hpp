@@ -14,7 +14,7 @@ namespace hapnet::lab::results {
 /// The findings of an experiment.
 struct Found {
     std::vector<Table> tables;
-    std::vector<File> files{}; // besides: criteria.toml
+    std::vector<File> files{}; // files besides the tables: criteria.toml
 };
 
 /// Equal results give equal tables. `results` are those of make_jobs(experiment), in that order.

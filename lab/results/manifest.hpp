@@ -15,12 +15,13 @@ namespace hapnet::lab::results {
 
 /// The circumstances of a run. Its results do not depend on them.
 struct Circumstances {
-    std::string command; // what was typed
-    std::string start;   // ISO 8601, UTC
+    std::string command; // command line
+    std::string start;   // start time, ISO 8601, UTC
     double wall_time_s = 0.0;
     nlohmann::ordered_json host{};
     std::string program{}; // "hapnet-lab 1.2.3 (commit abc, GCC 12.2.0)"; empty: several programs
-    std::optional<double> processor_time_s{}; // of all threads; nullopt: not only this program's
+    /// The processor time of all threads; nullopt: other programs took part in the run.
+    std::optional<double> processor_time_s{};
 };
 
 /// ISO 8601, UTC, whole seconds.
@@ -31,11 +32,11 @@ struct Circumstances {
 
 /// The outcome of the run of an experiment.
 struct RunOutcome {
-    std::string criteria;   // TOML
-    std::size_t played = 0; // sessions
+    std::string criteria;   // criteria as TOML
+    std::size_t played = 0; // sessions played in this run
     std::size_t reused = 0;
     std::vector<std::string> invalid_because{};
-    std::string digest{}; // of all results; empty: there are none
+    std::string digest{}; // digest of all results; empty: there are none
     /// Recorded people whose hands played, with some of the values of an axis at least.
     std::shared_ptr<const hands::Population> people{};
 };

@@ -31,9 +31,9 @@ const PaperAlgorithm* paper_of(std::string_view algorithm)
     return known == paper_algorithms.end() ? nullptr : &*known;
 }
 
-constexpr double base_share = 0.10;           // of the paper's
-constexpr double dead_reckoning_share = 0.15; // of the paper's
-constexpr double sep_share = 0.03;            // of base's
+constexpr double base_share = 0.10;           // tolerance, as a share of the paper's number
+constexpr double dead_reckoning_share = 0.15; // tolerance, as a share of the paper's number
+constexpr double sep_share = 0.03;            // tolerance, as a share of base's number
 constexpr Band dead_reckoning_max_mm{40.0, 65.0};
 
 Band around(double centre, double share)
@@ -48,11 +48,11 @@ enum class ToBase : std::uint8_t { any, near, at_least, more, less };
 struct LimitRule {
     std::string_view algorithm;
     experiment::Impairment impairment;
-    std::string_view text; // for people
+    std::string_view text; // the rule in words, for people
     Band band{};
     ToBase to_base = ToBase::any;
-    double near_share = 0.0;  // of base's
-    double near_points = 0.0; // of the unit
+    double near_share = 0.0;  // allowed difference, as a share of base's limit
+    double near_points = 0.0; // further allowed difference, in the impairment's unit
 };
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
@@ -106,7 +106,7 @@ Lies lies(const metrics::Interval& interval, const Band& band)
 Lies stands_to_base(const LimitRule& rule, const metrics::Threshold& found,
                     const metrics::Threshold& base)
 {
-    constexpr double least = std::numeric_limits<double>::min(); // above 0
+    constexpr double least = std::numeric_limits<double>::min(); // the least number above 0
     const double near = rule.near_share * base.p50 + rule.near_points;
     const auto difference = difference_of(found, base).interval;
     switch (rule.to_base) {

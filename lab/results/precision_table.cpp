@@ -29,8 +29,8 @@ struct Figure {
     std::string task;
     std::string name;
     std::uint32_t seeds = 0;
-    std::uint64_t ticks = 0; // by all seeds
-    double found = 0.0;      // by all seeds
+    std::uint64_t ticks = 0; // ticks of all seeds together
+    double found = 0.0;      // the figure over all seeds
     std::function<std::vector<double>(std::size_t draws)> replicates;
 
     [[nodiscard]] bool is_same_as(const Figure& other) const
@@ -43,7 +43,7 @@ struct Figure {
 struct SessionFigure {
     std::string_view name;
     std::optional<double> SessionRow::*value;
-    bool is_of_p1 = false; // the figures of Table 1
+    bool is_of_p1 = false; // true if Table 1 has the figure
     bool is_of_tasks = false;
 };
 constexpr std::array session_figures{
@@ -160,7 +160,7 @@ struct ComparedFigure {
     std::string value;
     const Figure* figure = nullptr;
     double difference = 0.0;
-    std::optional<metrics::Interval> interval{}; // of the difference; nullopt: of one seed
+    std::optional<metrics::Interval> interval{}; // interval of the difference; nullopt: one seed
 };
 
 ComparedFigure compared(const std::string& value, const Figure& figure, const Figure& reference)

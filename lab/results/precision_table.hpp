@@ -30,7 +30,7 @@ struct AxisFindings {
 /// players, in the whole length of the sessions behind the figure, those on perfect networks
 /// included. `found` is the figure by all seeds; `difference`, by all seeds, from the reference's,
 /// with the 95 % interval of resampling them in pairs; `error` the root mean square over draws of
-/// so many seeds, empty where some of them find no limit; `order` that in which the figure
+/// this number of seeds, empty where some draws find no limit; `order` that in which the figure
 /// converges.
 [[nodiscard]] Table precision_table(const experiment::Axis& axis,
                                     std::span<const AxisFindings> values,

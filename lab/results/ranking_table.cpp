@@ -20,7 +20,7 @@ namespace {
 /// The algorithms in one task, with one value of the axis.
 struct Order {
     std::vector<std::string> algorithms;
-    std::vector<std::vector<double>> values; // of each, by seed or subject
+    std::vector<std::vector<double>> values; // values of each algorithm, by seed or subject
     std::vector<double> means;
 };
 

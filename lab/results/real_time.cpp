@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double agreement_percent = 5.0; // of mean and of std
+constexpr double agreement_percent = 5.0; // largest difference in mean or std that agrees
 
 /// The values that a program wrote down. What is missing is remembered.
 class Written {

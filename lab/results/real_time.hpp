@@ -33,8 +33,8 @@ struct RealTimeSession {
 
 /// The punctuality of a loop, by the times of its ticks.
 struct KeptTime {
-    std::uint64_t missed = 0;     // ticks
-    base::Duration longest_gap{}; // between two of them
+    std::uint64_t missed = 0;     // number of missed ticks
+    base::Duration longest_gap{}; // longest time between two ticks
 };
 [[nodiscard]] KeptTime kept_time(std::span<const base::Duration> ticks);
 

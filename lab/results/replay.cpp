@@ -20,7 +20,7 @@ constexpr double mm_per_m = 1e3;
 constexpr double m_per_mm = 1e-3;
 
 constexpr std::size_t plain_columns = 15;
-constexpr std::size_t turn_columns = 4, pose_columns = 7; // of a body on one side
+constexpr std::size_t turn_columns = 4, pose_columns = 7; // columns for each body and side
 
 /// Returns the columns of a replay. `further` is the number of further bodies where a body turns or
 /// several are shared; nullopt: there are the plain columns only.

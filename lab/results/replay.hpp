@@ -30,10 +30,10 @@ namespace hapnet::lab::results {
 
 /// One of those who played, with its copy of what is shared, in equal steps of time.
 struct ReplaySide {
-    std::string name; // "A", or "peer 3"
+    std::string name; // such as "A" or "peer 3"
     bool is_left = true;
     std::vector<glm::dvec3> hand_mm{};
-    std::vector<glm::dvec3> force_n{}; // on the hand
+    std::vector<glm::dvec3> force_n{}; // force on the hand
     /// The poses of each shared body, one for each step.
     std::vector<std::vector<virtual_time::Pose>> bodies{};
 };
@@ -44,9 +44,9 @@ struct Replay {
     std::string task;
     double start_s = 0.0;
     double step_s = 0.01;
-    std::vector<ReplaySide> sides{};                 // two or more, of at least two steps
-    scene::Description scene = scene::paper_scene(); // in which it was played
-    std::vector<std::size_t> shared{};               // which of its bodies; they stand there
+    std::vector<ReplaySide> sides{};                 // two or more, each with at least two steps
+    scene::Description scene = scene::paper_scene(); // scene in which the session was played
+    std::vector<std::size_t> shared{};               // numbers of the shared bodies in `scene`
 
     [[nodiscard]] std::size_t steps() const { return sides.front().hand_mm.size(); }
 };

@@ -39,8 +39,8 @@ Outcome add_run(const File& file, Results& results)
         file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
         false);
     if (!json.is_object()) return base::fail(file.path + ":1: expected one JSON object");
-    if (is_of_several(json)) return {}; // the folders that it names have their own
-    if (json.value("kind", Json{}) == "hands") return {}; // of recordings, not of results
+    if (is_of_several(json)) return {}; // each of the folders that it names has its own manifest
+    if (json.value("kind", Json{}) == "hands") return {}; // recordings, not results
     Run run{folder_of(file.path), std::move(json), std::nullopt};
     const auto criteria = run.manifest.find("criteria");
     if (criteria != run.manifest.end() && criteria->is_string()) {
@@ -56,9 +56,10 @@ Outcome add_run(const File& file, Results& results)
 /// The rules for the tables of one name.
 struct TableRule {
     std::string_view name;
-    std::vector<std::string_view> keys{}; // what no two rows may have alike; none: anything
-    bool is_ranked = false;               // base first
-    bool has_parties = false;             // a page compares parties as it compares algorithms
+    /// Columns in which no two rows may agree together; empty: any rows may.
+    std::vector<std::string_view> keys{};
+    bool is_ranked = false;   // true: sorted by algorithm, base first
+    bool has_parties = false; // true: a page compares parties as it compares algorithms
 };
 
 const std::vector<TableRule>& table_rules()
@@ -298,7 +299,7 @@ base::Result<void> add_session(Results& results, const std::string& name,
 {
     const std::vector<RecordFile> ordered = by_peer(records);
     std::vector<RecordedSession> pairs;
-    std::vector<records::Session> with_first; // of the first record with each of the others
+    std::vector<records::Session> with_first; // the first record with each of the others
     for (std::size_t a = 0; a < ordered.size(); ++a) {
         for (std::size_t b = a + 1; b < ordered.size(); ++b) {
             auto pair = recorded_session(name, ordered[a], ordered[b]);
@@ -312,7 +313,7 @@ base::Result<void> add_session(Results& results, const std::string& name,
         }
     }
     auto replay = replay_of(with_first, text_in(ordered.front().record->config, "scene_toml"));
-    if (replay) { // there is none when they were hardly in session together
+    if (replay) { // none if the peers were hardly in session together
         const std::string& algorithm = pairs.front().algorithm;
         replay->algorithm = algorithm.empty() ? "recorded" : algorithm;
         replay->task = pairs.front().name;

@@ -22,9 +22,9 @@ namespace hapnet::lab::results {
 
 /// The origin of some of the results: a manifest.json.
 struct Run {
-    std::string folder; // where it stands, as the path of the file says
+    std::string folder; // folder of the manifest, as the path of the file says
     nlohmann::ordered_json manifest;
-    std::optional<metrics::Criteria> criteria; // by which it judged; nullopt: it does not say
+    std::optional<metrics::Criteria> criteria; // criteria of the run; nullopt: not stated
 
     [[nodiscard]] bool is_valid() const;
 };
@@ -32,14 +32,14 @@ struct Run {
 /// The record of one of the peers of a session.
 struct RecordedPeer {
     std::int64_t id = 0;
-    nlohmann::json config; // the configuration in its record
-    std::string file{};    // of the record, as a path from the page; empty: not said
+    nlohmann::json config; // configuration in the peer's record
+    std::string file{};    // path of the record from the page; empty: unknown
 };
 
 /// A session that two peers have recorded.
 struct RecordedSession {
-    std::string name; // of the folder of the two records; of the task when there is one session
-    std::string task; // empty: the record does not say
+    std::string name;      // name of the records' folder; the task if there is one session
+    std::string task;      // empty: the record does not say
     std::string algorithm; // empty: the record does not say
     RecordedPeer a;
     RecordedPeer b;
@@ -50,14 +50,15 @@ struct RecordedSession {
 
 /// A table as CSV.
 struct TableFile {
-    std::string table; // its name among the results
-    std::string path;  // in the folder of the page
+    std::string table; // name of the table among the results
+    std::string path;  // path from the folder of the page
 };
 
 /// All that a result folder holds, its subfolders' results joined.
 struct Results {
     std::vector<Run> runs;
-    std::vector<Table> tables; // sessions are those of Table 1, claim_sessions those of claims
+    /// The table `sessions` has those of Table 1, `claim_sessions` those of claims.
+    std::vector<Table> tables;
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;
@@ -75,7 +76,7 @@ struct Results {
 /// A record, and where it is.
 struct RecordFile {
     const record::Record* record = nullptr;
-    std::string path{}; // from the page; empty: not said
+    std::string path{}; // path from the page; empty: unknown
 };
 
 /// Adds the session that two or more records share: every two of them, and one replay of all sides

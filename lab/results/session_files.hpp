@@ -12,10 +12,10 @@ namespace hapnet::lab::results {
 struct SessionFiles {
     using Json = nlohmann::ordered_json;
 
-    Json analysis = Json::object(); // hapnet-lab analyse --json
-    Json emulator = Json::object(); // hapnet-emulator --stats
-    Json peer = Json::object();     // hapnet-peer --stats, of the peer with id 1
-    std::vector<Json> others{};     // of those with the ids 2, 3, ..., as far as they are there
+    Json analysis = Json::object(); // output of hapnet-lab analyse --json
+    Json emulator = Json::object(); // output of hapnet-emulator --stats
+    Json peer = Json::object();     // output of hapnet-peer --stats, of the peer with id 1
+    std::vector<Json> others{};     // such output of the peers with ids 2, 3, ..., if present
 
     /// Why the session does not count, for people; empty: it does.
     [[nodiscard]] std::vector<std::string> invalid_because() const;

@@ -236,7 +236,7 @@ std::vector<SessionRow> make_session_rows(const experiment::Experiment& experime
 Table paired_table(const std::vector<SessionRow>& sessions)
 {
     std::map<std::pair<SharedCondition, std::string>, ById> played;
-    std::vector<std::pair<SharedCondition, std::string>> order; // as they come
+    std::vector<std::pair<SharedCondition, std::string>> order; // in the order of the sessions
     for (const SessionRow& row : sessions) {
         const std::pair key{condition_of(row), row.algorithm};
         ById& rows = played[key];

@@ -34,8 +34,8 @@ struct SessionRow {
     std::optional<double> max_mm{};
     std::optional<double> vibration_mm{};
     std::optional<double> stiffness_ratio{};
-    std::optional<double> force_vibration_n{}; // what the network adds
-    std::optional<double> force_above_2hz_n{}; // likewise
+    std::optional<double> force_vibration_n{}; // vibration of the force that the network adds
+    std::optional<double> force_above_2hz_n{}; // force above 2 Hz that the network adds
     std::optional<double> force_discrepancy{};
     std::optional<double> contact_lost{};
     std::optional<double> force_step_n{};
@@ -46,7 +46,7 @@ struct SessionRow {
     std::optional<double> stiffness_error{};
     std::optional<double> slow_stiffness_error{};
     std::optional<double> rate_kbit_s{};
-    std::optional<std::string> subject{}; // whose recorded hands played
+    std::optional<std::string> subject{}; // person whose recorded hands played
     std::optional<std::string> trial{};
 };
 constexpr auto fields_of(base::Tag<SessionRow>)

@@ -16,15 +16,17 @@ namespace hapnet::lab::results {
 /// The results of all seeds together. Means and intervals are over the seeds; with recorded people
 /// they are over the subjects, each with the mean of its sessions.
 struct Summary {
-    std::optional<metrics::Spread> typical_m{}; // the means of the discrepancy's figures
-    std::optional<metrics::Interval> mean_m{};  // 95 % of the mean of the mean
-    std::optional<double> discrepancy_max_m{};  // the largest of any seed
-    std::optional<double> force_step_n{};       // as well
+    /// The figures of the discrepancy, each as its mean over the seeds.
+    std::optional<metrics::Spread> typical_m{};
+    /// The 95 % interval of the mean in `typical_m`.
+    std::optional<metrics::Interval> mean_m{};
+    std::optional<double> discrepancy_max_m{}; // largest discrepancy of any seed
+    std::optional<double> force_step_n{};      // largest force step of any seed
     std::optional<double> turned_apart_max_rad{};
-    metrics::Scores worst{};                  // in every respect as bad as that of the worst seed
-    metrics::Tier tier = metrics::Tier::good; // of the worst
-    std::size_t usable = 0;                   // seeds that are at least usable
-    std::string limited_by{};                 // what keeps it from the next tier
+    metrics::Scores worst{};                  // each score as bad as that of the worst seed
+    metrics::Tier tier = metrics::Tier::good; // tier of `worst`
+    std::size_t usable = 0;                   // number of sessions that are at least usable
+    std::string limited_by{};                 // what keeps `worst` from the next tier
 };
 
 /// A task's scores by session; at least one. `subjects` has the subject of each; empty: they have
@@ -40,7 +42,7 @@ struct Judged {
     std::optional<double> stiffness_ratio{};
     std::optional<double> force_vibration_n{};
     metrics::Tier tier{};
-    std::optional<double> turned_apart_deg{}; // mean of the worst seed; where a body turns
+    std::optional<double> turned_apart_deg{}; // mean angle of the worst seed, if a body turns
     std::optional<double> stiffness_error{};
     std::optional<double> slow_stiffness_error{};
 };

@@ -84,7 +84,7 @@ std::vector<Cell> condition_of(const SweepRow& row)
 
 /// The sessions of one condition.
 struct Condition {
-    std::vector<const SweepRow*> valid; // of each seed
+    std::vector<const SweepRow*> valid; // at most one session for each seed
     std::uint32_t left_out = 0;
 };
 

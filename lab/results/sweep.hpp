@@ -23,9 +23,9 @@ namespace hapnet::lab::results {
 struct PlayedCell {
     metrics::Metrics real{};
     metrics::Metrics simulated{}; // in virtual time, with the ticks of the daemons
-    metrics::Metrics perfect{};   // in virtual time: what the session is held against
+    metrics::Metrics perfect{};   // in virtual time on a perfect network: the reference for scores
     std::uint64_t missed_ticks = 0;
-    double longest_gap_ms = 0.0; // between two ticks of a peer
+    double longest_gap_ms = 0.0; // longest time between two ticks of a peer
     std::vector<std::string> invalid_because{};
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
@@ -36,7 +36,7 @@ struct PlayedCell {
 
 /// A row of the table real_time_sessions: a session as it was played once.
 struct SweepRow {
-    std::string point; // of the axes: "hands.stiffness=100N/m"
+    std::string point; // point of the axes, such as "hands.stiffness=100N/m"
     SessionRow real{};
     SessionRow simulated{};
     std::uint32_t attempt = 1;
@@ -69,12 +69,12 @@ struct ConditionRow {
     double duration_s = 0.0;
     std::string network{};
     std::string measure{};
-    std::uint32_t sessions = 0; // that are valid
-    std::uint32_t left_out = 0; // played, and never valid
+    std::uint32_t sessions = 0; // number of valid sessions
+    std::uint32_t left_out = 0; // number of seeds played without a valid session
     std::optional<double> real{};
     std::optional<double> simulated{};
     std::optional<double> difference_percent{};
-    std::optional<double> ci_low_percent{}; // its 95 % interval, by resampling the seeds
+    std::optional<double> ci_low_percent{}; // 95 % interval, by resampling the seeds
     std::optional<double> ci_high_percent{};
 };
 constexpr auto fields_of(base::Tag<ConditionRow>)

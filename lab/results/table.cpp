@@ -137,7 +137,8 @@ Table with_leading(const std::vector<LeadingCell>& leading, Table table)
 
 void append(Table& table, const Table& part)
 {
-    std::vector<std::pair<std::size_t, std::size_t>> places; // in the part and in the table
+    // The index of each column in the part and in the table.
+    std::vector<std::pair<std::size_t, std::size_t>> places;
     for (std::size_t i = 0; i < part.columns.size(); ++i) {
         const Column& column = part.columns[i];
         const auto known = table.place_of(column.key);

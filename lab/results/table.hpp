@@ -31,8 +31,8 @@ using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::stri
 enum class Stands : std::uint8_t { always, if_filled, in_json };
 
 struct Column {
-    std::string key;               // with its unit: "mean_mm"
-    std::optional<int> decimals{}; // of a number in CSV; nullopt: as many as it takes
+    std::string key;               // name with its unit, such as "mean_mm"
+    std::optional<int> decimals{}; // decimals of a number in CSV; nullopt: as many as needed
     Stands stands = Stands::always;
 };
 
@@ -66,7 +66,7 @@ template <typename Value>
 }
 
 struct Table {
-    std::string name; // "limits": that of limits.csv
+    std::string name; // such as "limits" for limits.csv
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows{};
 

@@ -37,7 +37,7 @@ std::string_view decided_by(const experiment::SearchResult& search, const TaskLi
                             const metrics::Criteria& criteria)
 {
     if (limit.threshold.is_open) return {};
-    std::vector<std::pair<std::string_view, std::size_t>> counts; // in the order of the criteria
+    std::vector<std::pair<std::string_view, std::size_t>> counts; // failures by metric
     std::optional<experiment::ImpairmentLevel> level;
     for (const experiment::CurvePoint& point : search.curve) {
         const bool is_failure = point.counts && point.tier < limit.tier;

@@ -18,7 +18,7 @@ namespace hapnet::lab::results {
 struct TaskLimit {
     const experiment::NamedAlgorithm* algorithm = nullptr;
     experiment::Impairment impairment{};
-    std::string_view task; // or worst_task
+    std::string_view task; // name of the task, or worst_task
     experiment::Party party{};
     metrics::Tier tier = metrics::Tier::usable;
     metrics::Threshold threshold{};

@@ -21,11 +21,11 @@ constexpr auto names_of(base::Tag<Claim>)
 
 /// The origin of a number that stands beside one of the paper's.
 enum class Provenance : std::uint8_t {
-    none,            // the paper has nothing that it stands beside
-    calibrated,      // fitted to it
-    selected,        // follows from a reading chosen among several with a look at it
-    by_construction, // another number again
-    predicted,       // it had no part in it
+    none,            // no number of the paper to compare with
+    calibrated,      // fitted to the paper's number
+    selected,        // follows from a reading of the paper chosen with a look at its number
+    by_construction, // equal to another result by design
+    predicted,       // the paper's number had no part in it
 };
 constexpr auto names_of(base::Tag<Provenance>)
 {

@@ -66,7 +66,7 @@ std::string digest_in(const fs::path& folder)
     if (!fs::exists(path)) return "";
     const auto text = net::text_of_file(path.string());
     const auto manifest = nlohmann::json::parse(text.value_or(""), nullptr, false);
-    if (!manifest.is_object()) return ""; // whoever reads it says what is wrong
+    if (!manifest.is_object()) return ""; // the reader of the manifest reports what is wrong
     const auto digest = manifest.find("digest");
     const bool is_said = digest != manifest.end() && digest->is_string();
     return is_said ? digest->get<std::string>() : "";

@@ -27,7 +27,7 @@ private:
     base::TimePoint start_;
     base::TimePoint next_;
     net::TerminalLine line_;
-    bool is_over_ = false; // the last has been shown
+    bool is_over_ = false; // true once the last line has been shown
 };
 
 } // namespace hapnet::lab::runner

@@ -142,7 +142,7 @@ bool ResultTables::commit_json(const char* name, bool of_sessions) const
 void ResultTables::for_each_line(const Table& table, const WaitingLines& lines,
                                  const TakeLine& take) const
 {
-    if (std::fseek(lines.get(), 0, SEEK_SET) != 0) refuse(table.name); // flushes
+    if (std::fseek(lines.get(), 0, SEEK_SET) != 0) refuse(table.name); // also flushes
     auto width = table.widths.begin();
     Line line;
     for (std::size_t row = 0; row < table.rows; ++row) {
@@ -175,7 +175,7 @@ ResultTables::WaitingLines ResultTables::wait_beside(const std::string& name) co
     if (!file) throw std::system_error{file.error(), "cannot write beside " + path};
     WaitingLines lines{fdopen(file->number(), "w+b")};
     if (!lines) refuse(name);
-    std::ignore = file->release(); // the lines' now
+    std::ignore = file->release(); // `lines` owns the descriptor now
     return lines;
 }
 

@@ -108,12 +108,12 @@ private:
     const Runner& runner_;
     std::span<const Assignment> jobs_;
     std::vector<std::optional<experiment::JobResult>>
-        results_; // each written by the thread of its job
+        results_; // each is written by the thread of its job
     std::atomic<bool> stop_ = false;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::size_t> jobs_done_ = 0;
     std::atomic<std::size_t> working_ = 0;
-    std::mutex mutex_; // over the two below
+    std::mutex mutex_; // guards thrown_ and error_
     std::exception_ptr thrown_;
     std::optional<std::string> error_;
     std::vector<std::thread> threads_; // last: they use all of the above

@@ -74,7 +74,7 @@ LinesRead for_each_line(const auto& file, const auto& use)
 {
     constexpr std::size_t block = 1 << 20;
     LinesRead read;
-    std::string text; // of which no line has been found yet
+    std::string text; // bytes after the last complete line
     while (true) {
         const auto kept = text.size();
         text.resize(kept + block);
@@ -139,7 +139,7 @@ base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
     const std::size_t number = files_.size() - 1;
     File& file = files_.back();
     const Json expected = header_of(identity);
-    std::optional<Json> other; // that the file begins with
+    std::optional<Json> other; // unexpected header at the beginning of the file
     std::size_t lines = 0;
     const auto read = for_each_line(file, [&](std::string_view line, auto offset) {
         if (++lines > 1) {
@@ -149,7 +149,7 @@ base::Result<void> SessionStore::read_last(const FolderIdentity& identity)
             return;
         }
         const Json header = Json::parse(line, nullptr, false);
-        const bool is_expected = header == expected; // of what is no JSON != is false, too
+        const bool is_expected = header == expected; // for invalid JSON, both == and != give false
         if (!is_expected) other = header;
     });
     file.length = read.length;
@@ -192,7 +192,7 @@ void SessionStore::append(const std::string& line)
 {
     File& file = files_.front();
     const auto written = disk::write_all(file.descriptor.number(), line + '\n');
-    if (written.error) { // no part of a line stays
+    if (written.error) { // remove the part of the line that was written
         std::ignore = ftruncate(file.descriptor.number(), static_cast<off_t>(file.length));
         throw std::system_error{written.error, "cannot write " + file.path};
     }

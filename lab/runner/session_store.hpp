@@ -28,9 +28,9 @@ struct FolderIdentity {
     std::string title;
 };
 
-/// The sessions that an experiment has played, in files of JSON lines that each is appended to as
-/// soon as it is over: what ends a run loses none of them. In memory is only where each stands. May
-/// be used by several threads; no session is played twice.
+/// The sessions that an experiment has played, in files of JSON lines. Each session is appended as
+/// soon as it is over, so that a run that is interrupted loses none of them. Memory holds only the
+/// place of each. Several threads may use it; no session is played twice.
 class SessionStore {
 public:
     /// Reads what is there, and keeps others from writing. The error: the file belongs to another
@@ -54,7 +54,7 @@ public:
 
     struct Counts {
         std::size_t played = 0;
-        std::size_t reused = 0; // of an earlier run
+        std::size_t reused = 0; // sessions that an earlier run had played
     };
     [[nodiscard]] Counts counts() const;
 
@@ -69,7 +69,7 @@ private:
         std::size_t file = 0;
         std::uint64_t offset = 0;
         std::uint32_t length = 0;
-        bool is_from_before = false; // and this run has not asked for it yet
+        bool is_from_before = false; // from an earlier run, and not asked for in this one so far
     };
     struct File {
         disk::Descriptor descriptor;
@@ -90,13 +90,13 @@ private:
 
     std::string program_;
     std::vector<File> files_;
-    bool is_writable_ = false; // the only file
+    bool is_writable_ = false; // true: there is one file, and sessions are appended to it
     std::size_t damaged_ = 0;
-    std::string first_damaged_; // FILE:LINE
+    std::string first_damaged_; // place of the first damaged line, as "FILE:LINE"
 
-    mutable std::mutex mutex_; // over all below, and the length of a file that is written
+    mutable std::mutex mutex_; // guards all members below and the length of the written file
     std::condition_variable changed_;
-    std::unordered_map<std::size_t, Place> places_; // by the hash of the key
+    std::unordered_map<std::size_t, Place> places_; // by the hash of a session's key
     std::set<std::string> being_played_;
     Counts counts_;
 };

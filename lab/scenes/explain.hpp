@@ -53,7 +53,7 @@ constexpr auto fields_of(base::Tag<TickBound>)
 /// A tick that would cost less than the one chosen, and what it cannot do for the scene.
 struct CheaperTick {
     scene::StepperKind profile = scene::StepperKind::flight;
-    std::vector<std::string_view> lacks; // names of features
+    std::vector<std::string_view> lacks; // names of the missing features
 };
 constexpr auto fields_of(base::Tag<CheaperTick>)
 {
@@ -104,17 +104,17 @@ constexpr auto fields_of(base::Tag<HandsReport>)
 /// gets.
 struct Explanation {
     std::string name;
-    std::uint64_t hash = 0; // peers compare it
+    std::uint64_t hash = 0; // hash of the scene, which peers compare
     std::size_t movable = 0;
     std::size_t fixed = 0;
     std::size_t planes = 0;
     scene::HandDescription hands;
-    std::optional<MassRange> mass; // nullopt: nothing is movable
+    std::optional<MassRange> mass; // nullopt: no body is movable
     base::Duration tick{};
     std::optional<double> hand_factor; // k dt^2 / m of a hand on the lightest body; nullopt: none
     scene::Requirements needs;
     scene::StepperKind profile = scene::StepperKind::flight;
-    std::vector<CheaperTick> cheaper; // the cheapest first
+    std::vector<CheaperTick> cheaper; // cheapest first
     TickBound bound;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 /// Hands come to rest where their task begins.
 constexpr base::Duration countdown{std::chrono::seconds{1}};
-constexpr std::int64_t ticks_between_looks = 1024; // at `stop`
+constexpr std::int64_t ticks_between_looks = 1024; // ticks between two looks at `stop`
 
 /// The share of a contact's force that a peer renders.
 double rendered_share(const Setting& setting)

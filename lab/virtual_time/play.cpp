@@ -17,7 +17,7 @@ namespace {
 
 /// Sides that have not begun by then never will: at a loss of 99 % both ways two take 10 s.
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
-constexpr std::int64_t steps_between_looks = 1024; // at `stop`
+constexpr std::int64_t steps_between_looks = 1024; // steps between two looks at `stop`
 /// Once all let go, the copies have this long to agree again.
 constexpr base::Duration settles_within{std::chrono::seconds{2}};
 
@@ -25,8 +25,8 @@ constexpr base::Duration settles_within{std::chrono::seconds{2}};
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
-    std::vector<Pose> further;          // Trace::further
-    std::vector<base::TimePoint> times; // of the samples, where some side does not tick evenly
+    std::vector<Pose> further;          // see Trace::further
+    std::vector<base::TimePoint> times; // times of the samples, if any side ticks unevenly
 };
 
 /// True if a link was full, so that a datagram was lost which the emulator would have kept.
@@ -117,10 +117,10 @@ private:
     VirtualWorld& world_;
     PlaysOn plays_on_;
     base::Duration tick_;
-    std::vector<Track> tracks_; // of each side
-    bool are_even_;             // all sides tick so
+    std::vector<Track> tracks_; // one for each side
+    bool are_even_;             // true if all sides tick evenly
     std::vector<Settled> settled_;
-    Traffic begun_; // when the first side began; without bits before
+    Traffic begun_; // traffic when the first side began; without bits until then
     double rate_bit_per_s_ = 0.0;
     bool over_ = false;
 };
@@ -128,7 +128,7 @@ private:
 void Play::note(std::size_t side)
 {
     const VirtualPlayer& player = world_.side(side);
-    if (player.stepped_at != world_.now()) return; // not its tick
+    if (player.stepped_at != world_.now()) return; // the player has no tick now
     Track& track = tracks_[side];
     if (!is_playing(player)) {
         const bool in_vain =

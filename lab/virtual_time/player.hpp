@@ -18,7 +18,7 @@ namespace hapnet::lab::virtual_time {
 
 /// The seat of a player in a session, and the number of the run of its program.
 struct PlayerId {
-    std::size_t seat = 0; // its id is one more
+    std::size_t seat = 0; // the player's id is seat + 1
     std::uint32_t nonce = 1;
 };
 
@@ -81,15 +81,15 @@ public:
     // Open to tests and benches, which change them.
     device::Rig rig;
     std::unique_ptr<peer::Side> side;
-    std::vector<peer::line::Line> lines; // to the others, in the order of their ids
+    std::vector<peer::line::Line> lines; // one to each other player, in the order of their ids
     std::size_t own_seat = 0;
-    base::Duration clock_ahead{}; // of the world's time
-    base::Duration date_ahead{};  // of its wall clock, besides
+    base::Duration clock_ahead{}; // the player's clock minus the world's time
+    base::Duration date_ahead{};  // its wall clock minus its own clock
 
-    bool can_turn = false;           // the shared body
-    base::TimePoint stepped_at;      // its last tick, in the world's time
-    std::size_t tended = 0;          // the line whose keys went on last
-    std::vector<peer::Event> events; // all so far
+    bool can_turn = false;           // true if the shared body can turn
+    base::TimePoint stepped_at;      // time of its last tick, in the world's time
+    std::size_t tended = 0;          // index of the line whose keys were looked after last
+    std::vector<peer::Event> events; // all events so far
 };
 
 } // namespace hapnet::lab::virtual_time

@@ -30,14 +30,15 @@ struct PlayerSetting {
     peer::SendPolicy send{};
     peer::Playout playout = peer::Playout::none;
     device::Operator person{};
-    std::shared_ptr<const device::HandTrace> replay{}; // plays instead of the person; at least one
-                                                       // moment, in the order of time
-    /// The hand is that of a page, and goes where it is told here; without a replay.
+    /// The recorded hand that plays instead of the person; at least one moment, in the order of
+    /// time.
+    std::shared_ptr<const device::HandTrace> replay{};
+    /// The wishes of a page, which moves the hand if there is no replay.
     std::shared_ptr<device::HandWishes> page{};
     /// The way that the person means to go, instead of its task's; at least one moment.
     std::shared_ptr<const device::HandTrace> way{};
-    base::Duration clock_ahead{}; // of the world's time
-    base::Duration phase{};       // of its ticks, 0 to less than a tick
+    base::Duration clock_ahead{}; // the player's clock minus the world's time
+    base::Duration phase{};       // offset of the player's ticks, 0 to less than a tick
     /// The times of its ticks, counted from the session's start, ascending, as in a loop that woke
     /// late and missed ticks. It ticks evenly before the first and after the last of them, or
     /// without any.
@@ -55,8 +56,9 @@ struct Setting {
     device::Task task = device::Task::p1;
     device::TaskOptions task_options{};
     scene::Description scene = scene::paper_scene();
-    base::Seed seed{42}; // of the links, whatever the profile says, and of the hands
-    base::Duration length{std::chrono::seconds{30}}; // hands off included
+    /// The seed of the links, whatever the profile says, and of the hands.
+    base::Seed seed{42};
+    base::Duration length{std::chrono::seconds{30}}; // time with hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
     /// Conditions both ways between any two; its timeline counts from the first hello. Among more
     /// than two players, its conditions for link "1-2" hold between the players with these ids.
@@ -64,7 +66,7 @@ struct Setting {
     /// True if all hands play in one scene, without a network, which excludes all effects of the
     /// profile and the algorithms. See in_one_world().
     bool is_one_world = false;
-    bool energy_limit = false; // the energy into the hands is limited as the daemons do it
+    bool energy_limit = false; // limits the energy into the hands as the daemons do
     /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as A, the others as B. Up is
     /// from the lower id to the higher.
     std::vector<PlayerSetting> players = std::vector<PlayerSetting>(2);

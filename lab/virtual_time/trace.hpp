@@ -15,16 +15,16 @@ namespace hapnet::lab::virtual_time {
 
 /// One side in one tick: its copy of the scene, its hand and its motors.
 struct Sample {
-    base::Position body; // the shared body, after the tick
+    base::Position body; // position of the shared body, after the tick
     base::Velocity body_velocity;
-    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // of the body, where it can turn
-    base::Position hip;                         // as the device told it
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // orientation of the body, if it can turn
+    base::Position hip;                         // haptic interface point, as the device reports it
     base::Velocity hip_velocity;
-    base::Force on_hand; // what the device was told, after the governor
-    base::Force on_body; // by this side's hand
+    base::Force on_hand; // force that the device was told, after the governor
+    base::Force on_body; // force of this side's hand on the body
     bool touching = false;
     bool holding = false;
-    bool remote_touching = false; // as this side believes
+    bool remote_touching = false; // another side's hand touches, as far as this side knows
 };
 
 /// The place and the orientation of a body.
@@ -45,7 +45,7 @@ struct Settled {
 struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
-    base::Duration begin{}; // of sample 0, from the session's start
+    base::Duration begin{}; // time of sample 0, from the session's start
     /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as A, the
     /// others as B.
     std::vector<std::vector<Sample>> sides = std::vector<std::vector<Sample>>(2);
@@ -61,7 +61,7 @@ struct Trace {
     /// The traffic of the busiest direction between any two sides with the headers of UDP over
     /// IPv4, bit/s; 0 for records.
     double rate_bit_per_s = 0.0;
-    base::Duration simulated{}; // that was played for it, from the first hello; 0 for records
+    base::Duration simulated{}; // virtual time played, from the first hello; 0 for records
 };
 
 /// A side between two of its samples, `share` (0 to 1) of the way, on a straight line. Its flags

@@ -102,30 +102,32 @@ public:
     }
 
 private:
-    /// Undelayed: it left at once, and waits in the receiver's socket.
+    /// A datagram that the link did not delay. It waits in the receiver's socket.
     struct Passing {
-        emulator::Datagram departure; // but for its bytes
+        emulator::Datagram departure; // everything about the datagram except its bytes
         peer::line::Datagram datagram;
     };
     /// The part of a side that outlives a killed player.
     struct Side {
         std::optional<VirtualPlayer> player;
         std::size_t group = 0;
-        std::size_t first_out = 0;      // of the ways from it: one to each of the others
-        std::vector<std::size_t> ins{}; // the ways to it, by the seats from which they come
+        /// The index in `ways_` of the first of the ways from it, one to each other side by seat.
+        std::size_t first_out = 0;
+        /// The indices in `ways_` of the ways to it, in the order of the senders' seats.
+        std::vector<std::size_t> ins{};
         base::TimePoint next_tick;
         base::Duration tick;
-        std::shared_ptr<const std::vector<base::Duration>> ticks{}; // PlayerSetting::ticks
-        std::size_t ticks_begun = 0;                                // of these
+        std::shared_ptr<const std::vector<base::Duration>> ticks{}; // see PlayerSetting::ticks
+        std::size_t ticks_begun = 0; // how many of `ticks` have begun
     };
     /// The way from one side of a group to another.
     struct Way {
         emulator::EmulatedPath* path;
         emulator::Direction direction;
         std::size_t from = 0;
-        secure::Place begin{}; // where that side is
-        secure::Place end{};   // where the other is
-        std::size_t line = 0;  // of the other, to this one
+        secure::Place begin{}; // place of the sender on the network
+        secure::Place end{};   // place of the receiver on the network
+        std::size_t line = 0;  // number of the receiver's line to the sender
         bool is_cut = false;
         std::vector<Passing> undelayed{};
     };
@@ -133,7 +135,7 @@ private:
         Setting setting;
         emulator::Paths paths;
         std::size_t first_side = 0;
-        std::size_t size = 0; // sides
+        std::size_t size = 0; // number of sides
         std::uint32_t next_nonce = 100;
     };
 
@@ -151,7 +153,7 @@ private:
 
     base::TimePoint now_ = start;
     std::vector<Group> groups_;
-    std::vector<Side> sides_; // of all groups
+    std::vector<Side> sides_; // the sides of all groups, group after group
     std::vector<Way> ways_;
     Interceptor interceptor_;
 };

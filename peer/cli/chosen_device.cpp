@@ -137,7 +137,7 @@ std::string introduction(const device::Device& device, const device::Mount& moun
                          device::Task task)
 {
     const auto millimetres = [&](int axis) {
-        return std::round(1e3 * mount.offset.value[axis]) + 0.0; // no -0
+        return std::round(1e3 * mount.offset.value[axis]) + 0.0; // + 0.0 avoids -0
     };
     return fmt::format(
         "{}; mounted at {:.0f},{:.0f},{:.0f} mm, magnified {:.2f} times (--mount-offset, "

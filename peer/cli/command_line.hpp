@@ -36,7 +36,7 @@ struct SelfTestCommand {
     DeviceChoice device;
     std::vector<std::string> skip;
     base::Duration read_for{std::chrono::seconds{10}};
-    std::optional<std::string> json; // a file
+    std::optional<std::string> json; // file for the report as JSON
 };
 
 /// Options: a session.

@@ -18,17 +18,18 @@ namespace hapnet::peer {
 /// The device that a person wants, and its settings.
 struct DeviceChoice {
     std::string name = "sim";
-    std::optional<device::HandTrace> replay; // where it is replay:FILE
+    std::optional<device::HandTrace> replay; // recorded hand for --device replay:FILE
     bool replay_loops = false;
-    std::shared_ptr<device::HandWishes> page{}; // where it is page: what it is told
-    device::Operator person;                    // whose hand is simulated, where it is sim
-    device::DeviceOptions options;              // where it is real
+    std::shared_ptr<device::HandWishes> page{}; // wishes for the hand of --device page
+    device::Operator person;                    // person whose hand a simulated device has
+    device::DeviceOptions options;              // options of a real device
     std::optional<base::Displacement> mount_offset;
     std::optional<double> mount_scale;
 
-    [[nodiscard]] bool has_joints() const { return name == "sim:joints"; } // simulated ones
+    /// True for a simulated device with joints.
+    [[nodiscard]] bool has_joints() const { return name == "sim:joints"; }
     [[nodiscard]] bool is_simulated() const { return name == "sim" || has_joints(); }
-    /// A person holds it.
+    /// True if a person holds the device.
     [[nodiscard]] bool is_real() const { return !is_simulated() && !replay && !page; }
 };
 

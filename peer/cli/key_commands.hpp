@@ -40,8 +40,8 @@ struct KeyAddCommand {
     std::uint8_t id = 0;
     secure::PublicKey key{};
     std::string endpoint;
-    std::string make_shared; // where a new shared key of the circle goes, for the other host
-    std::string shared;      // where the other host's is
+    std::string make_shared; // file to write a new shared key to, for the other host
+    std::string shared;      // file with the shared key that the other host has made
 };
 
 using KeyCommand =

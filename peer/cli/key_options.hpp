@@ -17,16 +17,16 @@ namespace hapnet::peer {
 
 /// The key of a session, as the command line asks for it.
 struct KeyChoice {
-    std::shared_ptr<const secure::KeyFile> file; // null: none
+    std::shared_ptr<const secure::KeyFile> file; // null: no key
     std::string path;
-    bool stays = false; // the others are heard from where they were said to be alone
+    bool stays = false; // --no-roam: messages go only to the places given for the others
 
     [[nodiscard]] bool is_given() const { return file != nullptr; }
 };
 
 /// Another peer and its place, as `--peer ID=HOST:PORT` gives them.
 struct NamedPeer {
-    std::uint8_t id = 0; // 0: whoever answers there
+    std::uint8_t id = 0; // 0: any peer that answers at the place
     net::HostPort place;
 };
 [[nodiscard]] base::Result<NamedPeer> parse_named_peer(const std::string& text);

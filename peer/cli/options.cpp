@@ -23,7 +23,7 @@ namespace hapnet::peer {
 
 namespace {
 
-constexpr double force_limit_max_n = 40.0; // more than any of the devices has
+constexpr double force_limit_max_n = 40.0; // more than any of the devices can exert
 constexpr double force_limit_min_n = 1e-3; // less than any hand feels
 constexpr double grip_damping_min_ns_per_m = 1e-3;
 
@@ -393,7 +393,7 @@ base::Result<void> load_code(Options& options)
     if (auto loaded = shared_object::load(options.algorithm); !loaded) {
         return base::fail(fmt::format("--algorithm: {}", loaded.error().message));
     }
-    return check_company(options); // only its code says with how many it plays
+    return check_company(options); // only the loaded code tells how many peers it can play with
 }
 
 } // namespace hapnet::peer

@@ -28,14 +28,14 @@ namespace hapnet::peer {
 struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
-    std::vector<NamedPeer> others; // ascending; with a key where to begin
-    std::size_t wait_for = 0;      // so many, this one counted, begin; 0: all
+    std::vector<NamedPeer> others; // other peers by ascending id; with a key, their first places
+    std::size_t wait_for = 0;      // peers that must be there to start, this one included; 0: all
     KeyChoice key;
     DeviceChoice device;
     std::string scene_name = "paper";
-    scene::Description scene; // one that two peers can share
+    scene::Description scene; // must be accepted by shared_bodies()
     double grip_damping_ns_per_m = 4.0;
-    double force_max_n = 3.3; // that the hand is given at most
+    double force_max_n = 3.3; // greatest force that the hand is given
     device::Task task = device::Task::p1;
     Algorithm algorithm;
     SendPolicy send{};
@@ -43,14 +43,14 @@ struct Options {
     base::Seed seed{1};
     base::Duration duration{std::chrono::seconds{30}};
     bool insecure = false;
-    bool untested_device = false;        // a session on a device without a self-test
+    bool untested_device = false;        // allow a device that has not passed a self-test
     std::optional<std::string> dead_man; // "button", or "evdev:" and a device of the kernel
     std::optional<std::string> record;
     std::optional<std::string> stats;   // a file, or "-" for stdout
-    std::optional<std::string> events;  // likewise
-    std::optional<std::string> control; // where its socket is to be
-    std::optional<net::HostPort> plot;  // where frames are sent over UDP
-    cli::KeepOptions keep{};            // the last seconds of a record
+    std::optional<std::string> events;  // a file, or "-" for stdout
+    std::optional<std::string> control; // path of the control socket
+    std::optional<net::HostPort> plot;  // destination of frames over UDP
+    cli::KeepOptions keep{};            // how much of the last rows to hold, and where to save them
 
     [[nodiscard]] bool is_pair() const { return others.size() <= 1; }
     /// The peers of the session. A pair accepts any peer that answers at the other place.
@@ -59,7 +59,7 @@ struct Options {
         Roster roster{.others = {}, .wait_for = wait_for};
         for (const NamedPeer& other : others)
             roster.others.push_back(is_pair() ? std::uint16_t{0} : std::uint16_t{other.id});
-        base::ensure(std::ranges::is_sorted(roster.others)); // as the circle takes them to be
+        base::ensure(std::ranges::is_sorted(roster.others)); // Roster::others is ascending
         return roster;
     }
 };

@@ -34,10 +34,10 @@ using namespace std::chrono_literals;
 using self_test::Prompt;
 using self_test::SelfTest;
 
-constexpr int test_priority = 45; // as the loop of a session
+constexpr int test_priority = 45; // same as the loop of a session
 constexpr base::Duration test_tick = 1ms;
 constexpr base::Duration prompts_shown_every = 50ms;
-constexpr int ticks_after_the_end = 60; // a governor's fade
+constexpr int ticks_after_the_end = 60; // long enough for the governor to fade out
 constexpr base::Duration gone_after_a_stop = 800ms;
 
 /// The test's loop, at the device's pace where it has one, and what another thread sees of it.
@@ -141,7 +141,7 @@ base::Result<int> run(const SelfTestCommand& command)
 {
     std::optional<disk::ResultFile> file;
     if (command.json) file.emplace(*command.json);
-    const net::StopSignal stop; // before any thread
+    const net::StopSignal stop; // must exist before any thread starts
     stop.enforce(gone_after_a_stop, net::exit_environment);
     const net::CrashSignal crash;
     const net::CrashStack stack;

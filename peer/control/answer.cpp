@@ -148,7 +148,7 @@ control::Answer answer_to(std::string_view line, const PeerControl& peer, base::
     if (command == "watch") return begun(members, control::watch_request(members, frames_least));
     if (command == "keep") return kept(members, peer, now);
     if (command == "hand") return moved(members, peer);
-    const char* const hand = peer.hand ? "hand, " : ""; // named where it can be used
+    const char* const hand = peer.hand ? "hand, " : ""; // offered only if the peer takes it
     if (is_for_an_emulator(command)) {
         return control::refusal(fmt::format(
             "'{}' is for an emulator: a running peer cannot be changed; use show, scene, stats, "

@@ -17,7 +17,7 @@ namespace hapnet::peer {
 /// A running peer as the clients of its control socket see it: they read its status, and may stop
 /// it or save what it holds. Called from the thread that serves them, never from the loop's.
 struct PeerControl {
-    std::function<nlohmann::ordered_json()> show; // an object
+    std::function<nlohmann::ordered_json()> show; // gives the status as a JSON object
     std::function<nlohmann::ordered_json()> statistics;
     /// Describes the statistics, with the names of metrics.
     const base::FieldTable& statistics_fields;
@@ -31,7 +31,7 @@ struct PeerControl {
     std::function<control::FrameSource()> frames;
     /// The time span of the last rows that memory holds; nullopt: none.
     std::optional<base::Duration> held{};
-    /// Orders a record of them since a time; gives its path.
+    /// Orders a record of the held rows since a time; gives its path.
     std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
     /// Tells the hand of a page what to do, or lets it go; null: this peer has another device.
     std::function<void(const std::optional<device::HandWish>& wish)> hand{};

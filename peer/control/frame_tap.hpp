@@ -42,7 +42,7 @@ private:
 
     std::uint16_t peer_id_;
     std::vector<Watch> watches_;
-    std::vector<record::SessionRow> sessions_; // the newest with each of the others
+    std::vector<record::SessionRow> sessions_; // newest row with each of the others
 };
 
 } // namespace hapnet::peer

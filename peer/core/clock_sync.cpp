@@ -14,9 +14,10 @@ namespace {
 
 // The clocks count from a boot: none is ten years ahead of another.
 constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
-// A round trip that is longer than the shortest by less than this met hardly any queue.
+// A round trip met hardly any queue if it exceeds the shortest by less than `longer_least`, or by
+// less than the shortest divided by `longer_share`.
 constexpr base::Duration longer_least{std::chrono::microseconds{100}};
-constexpr std::int64_t longer_share = 10; // or by less than a tenth of it
+constexpr std::int64_t longer_share = 10;
 // The noise that timers and interrupts add to an offset without any queue.
 constexpr double offset_noise_ns = 1e6;
 
@@ -58,7 +59,7 @@ bool ClockSync::shows_same_clock(const Window& sample)
     const bool was_seen = same_clock_ == SameClock::seen;
     if (was_seen && ++ruled_out_ < samples_needed) return true;
     same_clock_ = SameClock::no;
-    if (was_seen) { // one of them has jumped
+    if (was_seen) { // one of the clocks has jumped
         ++jumps_;
         agreeing_left_ = samples_needed;
     }

@@ -24,7 +24,7 @@ struct ClockEstimate {
     base::Duration offset{};      // their clock minus ours, now
     base::Duration uncertainty{}; // half the least round trip, which bounds what asymmetry can
                                   // hide, and what the fit may err by
-    double skew_ppm = 0.0;        // by how much theirs runs faster
+    double skew_ppm = 0.0;        // how much faster their clock runs than ours
 };
 
 /// Estimates the remote's clock from echoes (NTP's offset, RFC 5905 section 8). Queueing delays
@@ -45,12 +45,12 @@ public:
     static constexpr std::size_t windows_max = 64;
     static constexpr base::Duration settles_within{std::chrono::seconds{2}};
     static constexpr double slew_max = 500e-6;
-    static constexpr double skew_max_ppm = 200.0; // crystals are a tenth of that apart
+    static constexpr double skew_max_ppm = 200.0; // crystals differ by about a tenth of this
     static constexpr std::size_t windows_for_skew = 8;
     static constexpr std::size_t windows_for_jump = 8;
     /// Beyond half the round trip, which bounds what queues and asymmetry can do to an offset.
     static constexpr base::Duration jump_least{std::chrono::milliseconds{50}};
-    static constexpr std::uint32_t samples_needed = 8; // that agree, one after the other
+    static constexpr std::uint32_t samples_needed = 8; // consecutive samples that must agree
 
     /// Ignores samples with a negative round trip or an offset of more than ten years.
     void add(const ClockSample& sample);
@@ -81,7 +81,7 @@ private:
     /// The line through the windows.
     struct Fit {
         base::TimePoint when{};
-        base::Duration offset{}; // then
+        base::Duration offset{}; // offset at the time `when`
         base::Duration uncertainty{};
         double skew = 0.0;
 
@@ -104,14 +104,14 @@ private:
     void follow(base::TimePoint now);
 
     SameClock same_clock_ = SameClock::no;
-    std::uint32_t ruled_out_ = 0; // samples that rule one clock out, in a row
+    std::uint32_t ruled_out_ = 0; // consecutive samples that rule out a shared clock
     std::optional<base::TimePoint> first_;
-    std::optional<Window> open_; // of the second that goes on
+    std::optional<Window> open_; // window of the current second
     base::TimePoint open_since_;
     std::array<Window, windows_max> closed_{}; // the newest last
     std::size_t count_ = 0;
     Fit fit_;
-    base::Duration said_{}; // the offset as it is told
+    base::Duration said_{}; // offset that estimate() gives
     base::TimePoint said_at_;
     std::uint32_t jumps_ = 0;
     std::uint32_t agreeing_left_ = 0;

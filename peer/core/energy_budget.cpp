@@ -10,7 +10,8 @@ namespace hapnet::peer {
 namespace {
 
 constexpr double omni_force_n = 3.3;
-constexpr double least_share = 0.05; // of a device without force: its limits are never reached
+// The share of a device without force, which never reaches its limits.
+constexpr double least_share = 0.05;
 
 } // namespace
 

@@ -49,8 +49,8 @@ public:
     [[nodiscard]] bool is_finished() const { return is_leaving() && byes_left_ == 0; }
 
 private:
-    Refusal pending_; // until it has come often enough
-    int times_ = 0;   // that it has come
+    Refusal pending_; // refusal that has not come often enough yet
+    int times_ = 0;   // number of times that pending_ has come
     base::TimePoint last_refusal_;
     std::optional<wire::ByeReason> refusal_;
     std::optional<wire::ByeReason> because_;

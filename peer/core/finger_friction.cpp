@@ -47,7 +47,7 @@ void FingerFriction::on_touch(const scene::HandTouch& touch)
         return;
     }
     const glm::dvec3 normal = touch.on_body.value / force_n;
-    constexpr double same_face = 0.7; // the cosine of less than the way to the next one
+    constexpr double same_face = 0.7; // cosine of about half the angle between two faces of a box
     if (!contact_ || product(contact_->normal, normal) < same_face) contact_ = Contact{};
     contact_->normal = normal;
     contact_->force_n = force_n;

@@ -27,9 +27,9 @@ public:
 
 private:
     struct Contact {
-        glm::dvec3 normal{0.0};             // unit, into the body
-        double force_n = 0.0;               // along it
-        std::optional<glm::dvec3> anchor{}; // on the body, seen from its centre
+        glm::dvec3 normal{0.0};             // unit vector into the body
+        double force_n = 0.0;               // force along the normal
+        std::optional<glm::dvec3> anchor{}; // the spring's anchor, seen from the body's centre
     };
 
     scene::HandDescription hips_;

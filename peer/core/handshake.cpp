@@ -43,7 +43,7 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
                                                    base::TimePoint arrived, Known known)
 {
     const bool is_our_own = hello.nonce == self_.nonce && hello.peer_id == self_.id;
-    if (is_our_own) return std::nullopt; // somebody sent it back
+    if (is_our_own) return std::nullopt; // our own hello came back
     if (const auto reason = refusal_of(hello)) return reason;
     const bool is_of_another_run = !remote_ || remote_->nonce != hello.nonce;
     if (is_of_another_run && remote_ && known == Known::heard) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<wire::ByeReason> Handshake::on_hello(const wire::Hello& hello,
     remote_->heard = hello.heard;
     remote_->length_ms = hello.length_ms;
     remote_->hand = hello.hand;
-    if (hello.nonce_heard != self_.nonce) { // it has not heard this run of us yet
+    if (hello.nonce_heard != self_.nonce) { // the remote has not heard this run of us yet
         asked_ = true;
         last_heard_ = wire::Echo{hello.sent, {}};
         last_heard_at_ = arrived;
@@ -104,7 +104,7 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
         asked_ = !acknowledged_;
     } else if (hello.start) {
         adopt(hello, arrived);
-        asked_ = true; // it repeats itself until it hears our acknowledgement
+        asked_ = true; // the remote repeats its hello until this is acknowledged
     }
 }
 

@@ -14,15 +14,15 @@ namespace hapnet::peer {
 /// side's.
 struct Introduction {
     std::uint16_t id = 1;
-    std::uint32_t nonce = 1; // this run of the program, unpredictable, not 0
+    std::uint32_t nonce = 1; // identifies this run of the program; unpredictable, not 0
     std::uint64_t scene_hash = 0;
     std::uint64_t seed = 0;
     std::uint16_t tick_rate_hz = 1000;
     wire::TaskName task;
-    base::Duration length{std::chrono::seconds{30}}; // of the session: Settings::length
-    std::uint32_t boot =
-        0; // a hash of this machine's boot id: equal ones share a clock; 0: unknown
-    wire::HandModel hand{}; // 0: not said
+    base::Duration length{std::chrono::seconds{30}}; // length of the session: Settings::length
+    /// Hash of this machine's boot id; peers with equal ones share a clock. 0: unknown.
+    std::uint32_t boot = 0;
+    wire::HandModel hand{}; // a value of 0 is unknown
 };
 
 /// The session two peers have agreed on, as one of them sees it.
@@ -30,9 +30,10 @@ struct Session {
     std::uint32_t number = 0;
     base::TimePoint start; // on this peer's clock
     std::uint64_t seed = 0;
-    base::Duration length{};  // the shorter one of those that the two were asked for
-    bool is_left = false;     // the lower id
-    bool joined_late = false; // the remote was there before: take its cube
+    base::Duration length{}; // the shorter of the lengths that the two peers were asked for
+    bool is_left = false;    // this peer has the lower id
+    /// This peer came to a session that was under way, and takes over its bodies.
+    bool joined_late = false;
 };
 
 /// Lets two peers find each other and agree on a start: hellos every 20 ms until both know it.
@@ -157,20 +158,20 @@ private:
     Introduction self_;
     StartSetBy set_by_;
     std::optional<RemotePeer> remote_;
-    base::TimePoint met_at_; // this run of it
+    base::TimePoint met_at_; // when this run of the remote was met
     ClockSync clock_;
-    std::optional<wire::Echo> last_heard_; // `age` unused: its arrival is below
+    std::optional<wire::Echo> last_heard_; // message to echo; `age` unused, see last_heard_at_
     base::TimePoint last_heard_at_;
     std::optional<Session> session_;
     bool owns_start_ = false;                    // this side decides the start
-    bool stayed_ = false;                        // it was in session when the remote was restarted
+    bool stayed_ = false;                        // this side was in session before the remote
     bool acknowledged_ = false;                  // the remote knows the start
     bool asked_ = true;                          // a hello is wanted although all is settled
     std::optional<base::TimePoint> start_heard_; // the remote's start, on its clock
-    std::optional<base::TimePoint> other_start_; // that was heard instead, and how often
+    std::optional<base::TimePoint> other_start_; // another start that the remote told
     int times_other_start_ = 0;
-    bool starts_differ_ = false;     // among more than two: this side and the other tell two starts
-    std::optional<Session> earlier_; // that the remote is in
+    bool starts_differ_ = false;     // with more than two peers: the two tell different starts
+    std::optional<Session> earlier_; // earlier session that the remote is in
     std::optional<base::TimePoint> last_hello_;
 };
 

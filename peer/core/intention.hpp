@@ -41,7 +41,7 @@ public:
     struct Sample {
         base::Position hip;
         base::Velocity velocity;
-        base::Force force; // on the hand, as the device was told it in the tick before
+        base::Force force; // force on the hand that the device was told in the tick before
     };
     /// Once a tick. A hand that is not held has no intention: reset() then.
     void add(const Sample& sample, base::TimePoint at);
@@ -66,11 +66,11 @@ private:
 
     HandDynamics hand_;
     bool is_known_ = false;
-    glm::dvec3 velocity_{0.0}; // smoothed
+    glm::dvec3 velocity_{0.0}; // smoothed velocity of the hand
     glm::dvec3 settled_{0.0};  // the intention before the filter
     AlphaBeta filter_{filter_s};
     base::Duration tick_{};
-    double share_ = 0.0; // of a new velocity, for that tick
+    double share_ = 0.0; // weight of a new velocity after an interval of tick_
 };
 
 } // namespace hapnet::peer

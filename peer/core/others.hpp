@@ -79,7 +79,7 @@ private:
     Introduction self_;
     std::size_t wait_for_;
     std::vector<Remote> all_;
-    std::optional<Session> agreed_; // among more than two
+    std::optional<Session> agreed_; // session of more than two peers
 };
 
 } // namespace hapnet::peer

@@ -35,7 +35,7 @@ void PathMeter::on_newest(const wire::State& state, base::TimePoint arrived, bas
 /// `sent` by them, on their clock, which is `ahead` of ours.
 void PathMeter::on_echo(const wire::Echo& echo, base::TimePoint sent, base::Duration ahead)
 {
-    if (!echoed_) echoed_ = echo.of; // of a hello, it may be, from before the session
+    if (!echoed_) echoed_ = echo.of; // may be the echo of a hello from before the session
     const bool is_new = echo.of > *echoed_;
     if (is_new) {
         echoed_ = echo.of;

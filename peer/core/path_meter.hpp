@@ -32,7 +32,7 @@ struct PathsReport {
     base::ArrivalCounts arrived; // states of the other peer
     std::optional<double> loss;  // share of arrived.sent that never came, 0 to 1
     PathReport in;
-    PathReport out; // of those that were the newest over there when it sent something
+    PathReport out; // for the states that were the newest at the other peer when it sent a message
 };
 
 /// Measures both directions between this peer and another from the states that arrive, as it goes,
@@ -61,8 +61,8 @@ private:
     base::AgeMeter age_;
 
     DelayMeter out_;
-    std::optional<base::TimePoint> echoed_; // the newest of ours that was
-    base::RunningMoments ages_there_;       // at the moments when it sent
+    std::optional<base::TimePoint> echoed_; // stamp of this peer's newest message that was echoed
+    base::RunningMoments ages_there_; // ages of this peer's newest message when the other peer sent
     base::Duration age_there_peak_{};
 };
 

@@ -14,7 +14,7 @@ namespace hapnet::peer {
 
 namespace {
 
-constexpr double speed_max_m_per_s = 1000.0; // of a hand: a sample that says more is not used
+constexpr double speed_max_m_per_s = 1000.0; // a sample of a faster hand is not used
 
 bool is_usable(const Hand& hand)
 {
@@ -81,7 +81,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
     const Remote::Greeting greeting = other.on_hello(hello, arrived);
     if (greeting.refused) {
         if (greeting.had_session) {
-            other.post(wire::Bye{0, *greeting.refused}); // ours goes on without it
+            other.post(wire::Bye{0, *greeting.refused}); // this peer's session goes on without it
         } else {
             refuse({*greeting.refused, hello.nonce}, arrived);
         }
@@ -143,7 +143,7 @@ void Peer::play_out(base::TimePoint now)
 {
     for (std::size_t from = 0; from < others_.size(); ++from) {
         PlayoutBuffer* const playout = others_[from].playout();
-        if (playout == nullptr) return; // all have one, or none has
+        if (playout == nullptr) return; // all of the others have a buffer, or none has
         if (!others_[from].session()) continue;
         while (const auto played = playout->next(now)) hear(played->state, played->at, from);
     }
@@ -221,7 +221,7 @@ const Tick& Peer::tick(base::TimePoint now, const Hand& hand)
 {
     const Phase phase = phase_at(now);
     const bool in_session = phase == Phase::running || phase == Phase::hands_off;
-    Tick& tick = *std::construct_at(&tick_); // anew, in its place
+    Tick& tick = *std::construct_at(&tick_); // reset in place
     tick.phase = in_session && is_alone() ? Phase::alone : phase;
     play_out(now);
     tick.freshness = others_.look(now);
@@ -292,7 +292,7 @@ void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
     const SendCause cause = gate_.judge(state, ticks_played_ - 1);
     ++counters_.sending[cause];
     if (cause == SendCause::held_back) return;
-    BodySet said = 0; // that the state has, which is mostly the same for all
+    BodySet said = 0; // bodies in the state: mostly the same for all receivers
     for (Remote& other : others_.all()) {
         if (!other.session() || other.is_gone()) continue;
         state.session = other.numbering().number;

@@ -23,33 +23,33 @@ enum class Event : std::uint8_t {
     met,       // a remote answers
     agreed,    // the start is known
     started,   // the session has begun
-    joined,    // ... and was under way already: the body is where the others have it
-    lost,      // silent for long enough that the forces faded to zero
-    back,      // heard again
+    joined,    // the session was under way: the bodies are where the others have them
+    lost,      // a remote was silent until its forces had faded to zero
+    back,      // a remote is heard again
     restarted, // a remote came back as a new run
     left,      // a remote said goodbye
     refused,   // the two cannot play together: see refusal()
     hands_off,
     ended,
-    stopped,      // before there was a session
+    stopped,      // ended before there was a session
     no_body,      // states come, but none that tells where the body is
-    clock_jumped, // that of a remote, against this one
+    clock_jumped, // a remote's clock jumped against this peer's
 };
 
 /// Counters of received messages, and of those that could not be used.
 struct Counters {
-    std::uint64_t states = 0; // taken
+    std::uint64_t states = 0; // states that were taken
     std::uint64_t hellos = 0;
     std::uint64_t byes = 0;
-    std::uint64_t outdated = 0; // older than one already known, or duplicates, and dropped
+    std::uint64_t outdated = 0; // states older than one already known, or duplicates
     std::uint64_t other_session = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_version = 0;
-    std::uint64_t implausible = 0;   // out of any scene's reach, or numbered ahead of time
+    std::uint64_t implausible = 0;   // states beyond the scene's reach, or numbered ahead of time
     std::uint64_t unusable_hand = 0; // ticks in which the device's sample was not usable
-    std::uint64_t played_late = 0;   // of those that wait for their playout, after their time
+    std::uint64_t played_late = 0;   // states that arrived after their playout time
     std::uint64_t sent = 0;
-    base::ByName<SendCause, std::uint64_t> sending{}; // ticks of all sessions
+    base::ByName<SendCause, std::uint64_t> sending{}; // ticks of all sessions, by cause
 };
 
 /// An event, and the id of the other that it is about; 0: it is about all, or that one's id is not
@@ -101,10 +101,8 @@ public:
     }
     /// The first shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world().body(scene_.body()); }
-    [[nodiscard]] base::Position position() const
-    {
-        return world().position(scene_.body());
-    } // of body()
+    /// Position and velocity of the first shared body.
+    [[nodiscard]] base::Position position() const { return world().position(scene_.body()); }
     [[nodiscard]] base::Velocity velocity() const { return world().velocity(scene_.body()); }
     [[nodiscard]] const std::optional<Session>& session() const { return others_.session(); }
     [[nodiscard]] std::span<const Remote> others() const { return others_.all(); }
@@ -158,13 +156,13 @@ private:
     Settings settings_;
     Others others_;
     SceneCopy scene_;
-    Intention intention_; // of this hand
+    Intention intention_; // where this peer's hand means to be
     SendGate gate_;
     Farewell farewell_;
     Outbox<Notice, 32> notices_;
     Counters counters_;
-    std::int64_t ticks_played_ = 0; // in the session
-    Tick tick_;                     // the last
+    std::int64_t ticks_played_ = 0; // ticks played in the session
+    Tick tick_;                     // result of the last tick
     Phase phase_ = Phase::waiting;
 };
 

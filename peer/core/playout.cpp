@@ -34,7 +34,7 @@ bool PlayoutBuffer::put(const wire::State& state, base::TimePoint arrived)
     const base::Duration transit = arrived - state.sent;
     const bool is_in_time = !last_sent_ || transit <= transit_ + step;
     observe(state.sent, transit);
-    if (free_.empty()) { // the oldest makes room: what is newest counts
+    if (free_.empty()) { // the oldest state makes room for the newest
         free_.push_back(order_.front());
         order_.erase(order_.begin());
     }
@@ -67,7 +67,7 @@ void PlayoutBuffer::observe(base::TimePoint sent, base::Duration transit)
 {
     const bool is_faster = transit < origin_;
     const bool is_slower = count_ >= moved_after && bins_.back() > count_ / 2;
-    const bool is_new = !last_sent_ || is_faster || is_slower; // as after a jump of a clock
+    const bool is_new = !last_sent_ || is_faster || is_slower; // such as after a jump of a clock
     if (is_new) {
         std::ranges::fill(bins_, std::uint16_t{0});
         oldest_ = count_ = quantile_ = above_ = 0;

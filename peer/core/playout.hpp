@@ -27,16 +27,17 @@ constexpr auto names_of(base::Tag<Playout> /*enum*/) { return base::names("none"
 /// (1998). It takes no memory after its construction.
 class PlayoutBuffer {
 public:
-    static constexpr double late_share = 0.01; // of the states that come after their time
+    /// The share of states that may come after their playout time.
+    static constexpr double late_share = 0.01;
     static constexpr std::size_t window = 2000;
     static constexpr base::Duration window_age{std::chrono::seconds{10}};
-    static constexpr base::Duration step{std::chrono::microseconds{100}}; // of the transit
+    static constexpr base::Duration step{std::chrono::microseconds{100}}; // bin width of transits
     static constexpr std::size_t steps = 4096;
-    /// A path that becomes faster by more, or slower than all steps in most of so many states,
-    /// counts as a new one.
+    /// A path counts as a new one if it becomes faster by more than `faster_max`, or slower than
+    /// all steps in most of the last states, of which there are at least `moved_after`.
     static constexpr base::Duration faster_max{std::chrono::milliseconds{100}};
     static constexpr std::size_t moved_after = 100;
-    static constexpr double shrinks_by = 0.01; // of the time between two stamps
+    static constexpr double shrinks_by = 0.01; // decrease of the transit per time between stamps
     /// No state waits longer than this, and no more states than this wait.
     static constexpr base::Duration wait_max{std::chrono::milliseconds{200}};
     static constexpr std::size_t waiting_max = 256;
@@ -78,13 +79,13 @@ private:
 
     std::vector<Held> held_;           // waiting_max places
     std::vector<std::uint16_t> free_;  // places of held_ that are free
-    std::vector<std::uint16_t> order_; // the others, by stamp
+    std::vector<std::uint16_t> order_; // places of held_ in use, by stamp
     std::vector<Seen> seen_;           // a ring of the last transits
     std::size_t oldest_ = 0;
     std::size_t count_ = 0;
-    std::vector<std::uint16_t> bins_; // how many of these have a transit, in steps from origin_
-    std::size_t quantile_ = 0;        // bin
-    std::size_t above_ = 0;           // transits in later bins
+    std::vector<std::uint16_t> bins_; // number of transits in seen_, by steps from origin_
+    std::size_t quantile_ = 0;        // lowest bin that at most late_share of the transits exceed
+    std::size_t above_ = 0;           // number of transits in bins above quantile_
     base::Duration origin_{};
     base::Duration transit_{};
     std::optional<base::TimePoint> last_sent_;

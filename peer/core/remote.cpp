@@ -76,7 +76,7 @@ bool Remote::takes_back_goodbye(const wire::State& state, base::TimePoint arrive
                          arrived - goodbye_.heard > goodbye_doubted_for;
     if (!goes_on) return false;
     gone_ = false;
-    lost_ = true; // so that a person is told that it is back
+    lost_ = true; // so that change() reports the remote as back
     return true;
 }
 
@@ -147,7 +147,7 @@ bool Remote::update(const wire::State& state, base::TimePoint arrived)
     arrived_ = arrived_ ? std::max(*arrived_, arrived) : arrived;
     state_ = state;
     if (count_ == 1 && state.bodies.size() == 1 && bodies_[0].body == state.bodies.first()->body) {
-        bodies_[0] = *state.bodies.first(); // as in the paper's scene
+        bodies_[0] = *state.bodies.first(); // shortcut for one body, as in the paper's scene
     } else {
         take_bodies(state);
     }
@@ -156,12 +156,12 @@ bool Remote::update(const wire::State& state, base::TimePoint arrived)
 
 void Remote::take_bodies(const wire::State& state)
 {
-    std::int64_t most = 0; // of the impulse that its hand has given to one of them since
+    std::int64_t most = 0; // largest impulse that its hand has newly given to one body
     for (const wire::BodyState& body : state.bodies) {
         std::size_t i = 0;
         while (i < count_ && bodies_[i].body != body.body) ++i;
         if (i == count_) {
-            if (count_ == bodies_.size()) continue; // of which no honest session tells
+            if (count_ == bodies_.size()) continue; // no honest peer tells of more bodies
             bodies_[count_] = {};
             bodies_[count_++].body = body.body;
         }

@@ -43,7 +43,8 @@ public:
     /// two starts by half the difference, which no peer can measure. The slack is as long as the
     /// delay of the slowest path that is accepted.
     static constexpr base::Duration::rep sequence_slack = 5000;
-    static constexpr std::uint32_t body_every = 64; // messages
+    /// At least one in this many states has the bodies, even if nothing moves.
+    static constexpr std::uint32_t body_every = 64;
     /// States that were sent longer than this after a goodbye take it back: it was forged, or
     /// damaged. States that it overtook on its way do not count.
     static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
@@ -53,8 +54,8 @@ public:
     static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
 
     struct Config {
-        Introduction introduction{}; // of this peer
-        std::uint16_t id = 0;        // of the remote; 0: whoever answers
+        Introduction introduction{}; // introduction of this peer
+        std::uint16_t id = 0;        // id of the remote; 0: any peer that answers
         Handshake::StartSetBy start_set_by = Handshake::StartSetBy::lower_id;
         Staleness staleness{};
         Stale stale = Stale::drop;
@@ -67,9 +68,9 @@ public:
     /// The changes that a hello has made.
     struct Greeting {
         std::optional<wire::ByeReason> refused;
-        bool met = false;         // heard for the first time
-        bool in_session = false;  // with this run of it, from now on
-        bool had_session = false; // with another run, until now
+        bool met = false;         // the remote was heard for the first time
+        bool in_session = false;  // a session with this run of the remote has begun
+        bool had_session = false; // there was a session before this hello
     };
     [[nodiscard]] Greeting on_hello(const wire::Hello& hello, base::TimePoint arrived);
     /// True if its hello may be listened to: the one that is expected here.
@@ -80,8 +81,8 @@ public:
     /// True if it goes on although it has said goodbye; then the goodbye is forgotten.
     [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
     struct Heard {
-        bool taken = false;       // newer than what was known
-        bool body_missed = false; // from now on: the first time in this run
+        bool taken = false;       // the state counts; a stale one only with Stale::take
+        bool body_missed = false; // the remote's states lack bodies; true only once
     };
     /// Learns about path and clock from a state that has arrived. True if its clock has jumped.
     bool on_arrival(const wire::State& state, base::TimePoint arrived);
@@ -144,7 +145,8 @@ public:
     [[nodiscard]] PathsReport paths() const { return meter_ ? meter_->report() : PathsReport{}; }
     /// The remote's id: as it was named, or as it has said; 0: neither.
     [[nodiscard]] std::uint16_t id() const { return id_ != 0 ? id_ : handshake_.id(); }
-    [[nodiscard]] bool is_gone() const { return gone_; } // it said goodbye
+    /// True if the remote has said goodbye.
+    [[nodiscard]] bool is_gone() const { return gone_; }
     /// Heard by hellos or states within `length` before now.
     [[nodiscard]] bool is_heard_within(base::Duration length, base::TimePoint now) const
     {
@@ -190,9 +192,9 @@ private:
 
     // Members that algorithms read in each tick come first.
     std::optional<wire::State> state_;
-    std::array<wire::BodyState, wire::bodies_max> bodies_; // the first count_, as they were told of
+    std::array<wire::BodyState, wire::bodies_max> bodies_; // the first count_ are known
     std::size_t count_ = 0;
-    std::size_t touched_ = 0; // of these
+    std::size_t touched_ = 0; // index in bodies_ of the body that the hand pushes
     std::optional<base::TimePoint> arrived_;
     double freshness_ = 0.0;
     Staleness staleness_;
@@ -202,27 +204,29 @@ private:
     Handshake handshake_;
     SequenceGuard sequences_;
     TickCount tick_count_;
-    std::unique_ptr<PathMeter> meter_;       // large, and only where asked for
-    std::unique_ptr<PlayoutBuffer> playout_; // likewise
+    std::unique_ptr<PathMeter> meter_;       // large; null unless Config::measures_path
+    std::unique_ptr<PlayoutBuffer> playout_; // large; null unless Config::playout is adaptive
     base::Duration tick_;
     Outbox<wire::Datagram, 8> outbox_;
     Numbering current_;
-    Numbering former_; // the session before
+    Numbering former_; // numbering of the session before
     base::TimePoint agreed_at_;
-    std::optional<base::TimePoint> last_heard_; // a hello or a state
+    std::optional<base::TimePoint> last_heard_; // arrival of the last hello or state
 
     bool gone_ = false;
     struct Goodbye {
         base::TimePoint heard;
-        std::optional<base::TimePoint> last_sent; // of its states until then, on its clock
+        /// Send stamp of the remote's newest state by then, on the remote's clock.
+        std::optional<base::TimePoint> last_sent;
     };
     Goodbye goodbye_;
-    base::TimePoint last_body_;      // that it told of, or the session's agreement
-    base::TimePoint last_body_told_; // to it, although nothing moved
+    /// Arrival of the last state with a body, or when the session was agreed on.
+    base::TimePoint last_body_;
+    base::TimePoint last_body_told_; // when is_body_due() last returned true
     std::uint32_t states_without_body_ = 0;
-    bool body_missed_ = false;     // and a person has been told
-    bool lost_ = false;            // it fell silent
-    std::uint32_t jumps_told_ = 0; // of its clock, in this run
+    bool body_missed_ = false;     // missing bodies were reported
+    bool lost_ = false;            // the remote fell silent
+    std::uint32_t jumps_told_ = 0; // reported jumps of the clock of the remote's present run
 };
 
 } // namespace hapnet::peer

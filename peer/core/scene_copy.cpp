@@ -86,7 +86,7 @@ SceneCopy::SceneCopy(const Settings& settings)
 /// The share of the force on the hand that may be rendered.
 double SceneCopy::rendered_share(base::Duration late) const
 {
-    const double tick_s = base::to_seconds(tick_ + 2 * late); // held for half a tick more
+    const double tick_s = base::to_seconds(tick_ + 2 * late); // a force held for T is T / 2 late
     return std::min(share_within(stiffness_max_n_per_m_, wall_),
                     passive_share(wall_, tick_s, grip_damping_ns_per_m_));
 }
@@ -178,7 +178,7 @@ inline base::Position SceneCopy::keep_within_reach(scene::BodyId body)
 {
     const base::Position place = world_.position(body);
     if (scene::is_within(place.value, remote_reach_m_)) return place;
-    constexpr double inside = 0.99; // whatever is rounded on the wire
+    constexpr double inside = 0.99; // leaves room for rounding on the wire
     const base::Position back{
         glm::clamp(place.value, -inside * remote_reach_m_, inside * remote_reach_m_)};
     world_.place(body, back, {});

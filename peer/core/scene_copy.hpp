@@ -48,7 +48,7 @@ public:
     /// knows that, its copy stands still.
     void await_bodies(bool awaited) { is_known_ = !awaited; }
     [[nodiscard]] bool is_known() const { return is_known_; }
-    /// Places them there, once one has told of all.
+    /// Places the bodies where one of the others has them, once that one has told of all.
     void take_over(std::span<const Remote> others);
 
     /// Lets the algorithm move the copy by a tick, and adds up what this hand has done.
@@ -72,9 +72,9 @@ private:
     /// The effect of this hand on one of the shared bodies.
     struct Effect {
         EffectSums sums;
-        std::optional<base::TimePoint> last_touch; // by this hand
-        std::optional<base::TimePoint> last_stir;  // the body was touched or moved
-        base::Position place_before;               // at the start of the tick
+        std::optional<base::TimePoint> last_touch; // last touch by this hand
+        std::optional<base::TimePoint> last_stir;  // when the body was last touched or moved
+        base::Position place_before;               // place at the start of the tick
         glm::dquat orientation_before{1.0, 0.0, 0.0, 0.0};
     };
 
@@ -92,16 +92,16 @@ private:
 
     std::vector<SharedBody> shared_;
     scene::BodyId body_;
-    std::optional<SharedPoses> poses_; // unless they are one without turning
+    std::optional<SharedPoses> poses_; // nullopt: one shared body that does not turn
     scene::World world_;
-    std::optional<FingerFriction> friction_; // where the scene's hands have any
+    std::optional<FingerFriction> friction_; // nullopt: the scene's hands have no friction
     base::Duration tick_;
-    VirtualWall wall_; // the hardest of the scene
+    VirtualWall wall_; // hardest contact of the scene
     double stiffness_max_n_per_m_;
     double grip_damping_ns_per_m_;
-    double share_; // of the forces on the hand, that may be rendered
+    double share_; // share of the forces on the hand that may be rendered
     double force_max_n_;
-    double remote_reach_m_; // of what the others may claim
+    double remote_reach_m_; // limit of the positions that other peers may claim
     double remote_speed_m_per_s_;
     std::vector<Effect> effects_;
     bool is_known_ = true;

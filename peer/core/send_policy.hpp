@@ -18,7 +18,7 @@
 
 namespace hapnet::peer {
 
-/// The rule by which a peer sends its state: every so many ticks, or, with a deadband, when the
+/// The rule by which a peer sends its state: every N ticks, or, with a deadband, when the
 /// others' prediction from the last message is too far off. A perceptual deadband as in P.
 /// Hinterseer et al., Perception-based data reduction and transmission of haptic data in
 /// telepresence and teleaction systems, IEEE Trans. Signal Processing 56 (2008), and IEEE 1918.1.1.
@@ -29,7 +29,7 @@ struct SendPolicy {
 
     std::uint32_t every = 1;                   // ticks from one message to the next, 1 to every_max
     std::optional<base::Probability> deadband; // Weber's fraction; with it `every` is 1
-    base::Duration silence_max{std::chrono::milliseconds{50}}; // of a deadband, between messages
+    base::Duration silence_max{std::chrono::milliseconds{50}}; // longest pause with a deadband
 
     /// True if every tick has a message.
     [[nodiscard]] bool is_each_tick() const { return every == 1 && !deadband; }

@@ -36,8 +36,8 @@ public:
 private:
     struct Usual {
         base::Duration lead;    // sequence times tick, minus the stamp on their clock
-        base::Duration transit; // arrival on ours minus stamp on theirs
-        base::TimePoint last;   // arrival
+        base::Duration transit; // arrival on our clock minus stamp on their clock
+        base::TimePoint last;   // arrival of the newest state
     };
     [[nodiscard]] Usual of(const wire::State& state, base::TimePoint arrived) const;
 

@@ -30,7 +30,7 @@ public:
 private:
     [[nodiscard]] bool is_due(const Peer& peer, std::size_t other, base::TimePoint now);
 
-    std::vector<std::optional<record::SessionRow>> noted_; // the newest with each of the others
+    std::vector<std::optional<record::SessionRow>> noted_; // newest row with each of the others
 };
 
 } // namespace hapnet::peer

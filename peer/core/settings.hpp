@@ -12,9 +12,10 @@ namespace hapnet::peer {
 
 struct Settings {
     Introduction introduction;
-    Roster roster; // the others; with more than one: plays_with_many()
-    scene::Description scene = scene::paper_scene(); // one that shared_bodies() accepts
-    Algorithm algorithm; // one that check_bodies_of() and check_hands_of() accept
+    /// The other peers. With more than one, the algorithm must have plays_with_many().
+    Roster roster;
+    scene::Description scene = scene::paper_scene(); // must be accepted by shared_bodies()
+    Algorithm algorithm; // must be accepted by check_bodies_of() and check_hands_of()
     /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
     /// rendered without the hand drawing energy from them (passive_share). The default is a nominal
     /// grip on a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z.
@@ -25,12 +26,12 @@ struct Settings {
     double stiffness_max_n_per_m = 0.0;
     /// Metres in the scene for each metre that the hand moves.
     double mount_scale = 1.0;
-    SendPolicy send;                 // when the others are told
-    Playout playout = Playout::none; // when what they say counts
+    SendPolicy send;                 // when states are sent to the other peers
+    Playout playout = Playout::none; // when received states are given to the algorithm
     Staleness staleness;
     base::Duration tick{std::chrono::milliseconds{1}};
-    base::Duration length{std::chrono::seconds{30}}; // of the session, from its start
-    bool measures_paths = false;                     // to the others, for statistics; 80 KiB each
+    base::Duration length{std::chrono::seconds{30}}; // length of the session from its start
+    bool measures_paths = false;                     // for statistics; takes 80 KiB per other peer
 };
 
 } // namespace hapnet::peer

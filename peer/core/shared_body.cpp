@@ -67,7 +67,7 @@ base::Result<std::vector<SharedBody>> shared_bodies(const scene::Description& sc
     if (auto sound = check_bodies(scene); !sound) return tl::unexpected{sound.error()};
     std::vector<SharedBody> bodies;
     std::size_t movable = 0;
-    std::string beyond; // the first for which there is no room
+    std::string beyond; // name of the first body for which there is no room
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const scene::BodyDescription& body = scene.bodies[i];
         if (!body.movable) continue;

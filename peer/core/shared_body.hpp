@@ -23,7 +23,7 @@ struct SharedBody {
 /// wire::bodies_max of them. The error names what a session cannot have, and the cure.
 [[nodiscard]] base::Result<std::vector<SharedBody>> shared_bodies(const scene::Description& scene);
 
-/// The first of them, which stands for all in the ticks of a record.
+/// The first shared body, which stands for all of them in the ticks of a record.
 [[nodiscard]] base::Result<scene::BodyId> shared_body(const scene::Description& scene);
 
 /// True if only one body is shared and it does not turn, as in the paper. Every algorithm can play

@@ -102,11 +102,11 @@ private:
     Peer peer_;
     std::uint16_t id_;
     double mount_scale_;
-    double work_j_ = 0.0; // of the hand on its device since the start
+    double work_j_ = 0.0; // work of the hand on its device since the start
     device::Sample sample_;
     base::Force told_;
     device::GovernorState governor_state_ = device::GovernorState::off;
-    std::optional<base::TimePoint> cued_; // the start that the device was told
+    std::optional<base::TimePoint> cued_; // session start that the device was told
 };
 
 /// The sample that Side::row() wrote: the other way round.

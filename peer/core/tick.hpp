@@ -17,8 +17,8 @@ struct Hand {
     base::Velocity velocity;
     bool gripping = false;
     bool present = true; // a person holds the device, and its sample is valid
-    double work_j = 0.0; // of the hand on its device since the start
-    base::Force felt{};  // that the device was told in the tick before
+    double work_j = 0.0; // work of the hand on its device since the start
+    base::Force felt{};  // force that the device was told in the tick before
 };
 
 /// The phase of a session. Its last 3 s (half of it, when it is shorter than 6 s) are hands off.
@@ -28,13 +28,13 @@ using record::Phase;
 struct Tick {
     Phase phase = Phase::waiting;
     bool permitted = false; // whether the hand may feel anything at all
-    base::Force force;      // on the hand, before the governor
+    base::Force force;      // force on the hand, before the governor
     scene::HandTouch touched;
-    bool remote_touching = false;             // the hand of one of the others
-    base::Force remote_force;                 // that counted, of all the others
-    std::optional<base::Position> remote_hip; // as the algorithm shows it
-    double freshness = 0.0;                   // of the others' newest state
-    std::uint32_t sequence = 0;               // of the state that was sent to the first; 0: none
+    bool remote_touching = false;             // the hand of another peer counts as touching
+    base::Force remote_force;                 // sum of the other peers' forces that counted
+    std::optional<base::Position> remote_hip; // another peer's hand, as the algorithm shows it
+    double freshness = 0.0;                   // freshness of the others' newest state, 0 to 1
+    std::uint32_t sequence = 0; // sequence of the state sent to the first other peer; 0: none
 };
 
 } // namespace hapnet::peer

@@ -20,8 +20,9 @@ public:
     static constexpr std::int64_t missed_max = 50;
 
     struct Counted {
-        std::uint32_t number = 0; // of the tick, counted as states are; greater of newer states
-        base::Duration span{};    // from one message of the sender to the next: a tick or more
+        /// Number of the tick, on the scale of sequence numbers: newer states have greater ones.
+        std::uint32_t number = 0;
+        base::Duration span{}; // time from one message of the sender to the next: a tick or more
     };
     [[nodiscard]] Counted of(const wire::State& state, base::Duration tick);
     void forget() { *this = {}; }
@@ -32,9 +33,9 @@ private:
         base::TimePoint sent;
     };
     std::optional<Origin> origin_;
-    std::uint32_t newest_ = 0; // sequence
+    std::uint32_t newest_ = 0; // sequence number of the newest state
     std::uint32_t newest_number_ = 0;
-    bool is_sparse_ = false; // the remote sends in fewer ticks
+    bool is_sparse_ = false; // the remote does not send in every tick
 };
 
 } // namespace hapnet::peer

@@ -32,7 +32,7 @@ public:
 private:
     void save();
 
-    std::string path_; // "": there is no place for it
+    std::string path_; // file of the state; "": there is no folder for it
     DeviceState state_;
 };
 

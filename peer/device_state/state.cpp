@@ -12,7 +12,7 @@ namespace hapnet::peer::device_state {
 namespace {
 
 constexpr int version = 1;
-constexpr double heat_max = 100.0; // what a governor takes
+constexpr double heat_max = 100.0; // upper limit of GovernorLimits::heat_start
 
 bool is_plain(char c)
 {

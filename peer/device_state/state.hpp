@@ -16,12 +16,12 @@ namespace hapnet::peer::device_state {
 /// clock.
 struct DeviceState {
     struct Heat {
-        double heat = 0.0; // of the motors, as device::MotorHeat counts it
+        double heat = 0.0; // heat of the motors, as device::MotorHeat counts it
         double at_s = 0.0;
     };
 
     std::optional<double> self_test_passed_s{};
-    std::optional<Heat> heat{}; // nullopt: not known, as while a session is under way
+    std::optional<Heat> heat{}; // nullopt: not known, such as during a session
 };
 
 /// Now, and when the machine was started.

@@ -42,9 +42,9 @@ constexpr auto fields_of(base::Tag<Finding>)
 struct Timing {
     bool fifo = false;
     bool locked_memory = false;
-    bool is_root = false;      // then only who runs the system can help
-    base::Duration slack{};    // of the thread's timers
-    base::Duration late_p99{}; // of wake-ups, once a millisecond
+    bool is_root = false;      // as root, withheld rights can only be granted from outside
+    base::Duration slack{};    // slack of the thread's timers
+    base::Duration late_p99{}; // p99 lateness of wake-ups at 1 kHz
 };
 
 /// A node of a device that hapnet knows.
@@ -52,29 +52,29 @@ struct Node {
     std::string device; // such as "Novint Falcon"
     std::string path;   // such as /dev/bus/usb/001/002
     bool is_accessible = false;
-    std::string rule{}; // a udev rule of its own that it needs; "": ours will do
+    std::string rule{}; // udev rule that the node needs; "": hapnet's rules cover it
 };
 
 /// A key file that was asked about.
 struct KeyFact {
     std::string path;
-    std::string trouble{}; // why a session would refuse it, with the cure; "": it would not
+    std::string trouble{}; // why a session would refuse the file, with the cure; "": it is fine
 };
 
 /// The facts that were found about the system.
 struct Facts {
     Timing timing;
-    std::vector<std::string> cpu_governors; // the different ones; none: it cannot be set
+    std::vector<std::string> cpu_governors; // distinct ones; empty: the speed cannot be set
     std::optional<std::uint64_t> receive_buffer_max_bytes;
-    bool forces_buffers = false; // may exceed that
+    bool forces_buffers = false; // may exceed receive_buffer_max_bytes
     bool has_udev = false;
-    std::optional<std::string> installed_rules; // the text of ours
+    std::optional<std::string> installed_rules; // hapnet's udev rules; nullopt: not installed
     std::vector<Node> nodes;
     bool has_firewire_card = false;
     bool has_firewire_driver = false;
     std::string hd_trouble;  // why libHD cannot be loaded; "": it can, or is not wanted
-    bool hd_wanted = false;  // a device that needs it is there
-    bool is_date_set = true; // the day is one on which this version can run
+    bool hd_wanted = false;  // --hd-library is given, or a device that needs libHD is there
+    bool is_date_set = true; // the wall clock is past the start of 2026
     std::optional<KeyFact> key;
 };
 
@@ -83,7 +83,7 @@ struct Facts {
 
 /// The udev rules of this version.
 [[nodiscard]] std::string_view udev_rules();
-/// The one line that installs them, from wherever the program is.
+/// The command, in one line, that installs the udev rules from wherever the program is.
 [[nodiscard]] std::string_view udev_cure();
 
 } // namespace hapnet::peer::doctor

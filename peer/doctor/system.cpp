@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr int servo_priority = 45; // as the loop asks for it
+constexpr int servo_priority = 45; // same as the loop of a session
 constexpr int wake_ups = 300;
 
 /// Its whole text, without the line's end; nullopt when it cannot be read.
@@ -89,7 +89,7 @@ void find_firewire(const fs::path& root, std::vector<Node>& nodes)
     for (const fs::path& entry : entries_of(root / "sys/bus/firewire/devices")) {
         if (word_in(entry / "vendor") != "0x000b99") continue;
         const std::string name = entry.filename();
-        if (name.find('.') != std::string::npos) continue; // a unit of it
+        if (name.find('.') != std::string::npos) continue; // a unit of a device, not the device
         nodes.push_back(node_at(root, "PHANToM Omni (FireWire)", "/dev/" + name));
     }
 }
@@ -116,7 +116,7 @@ void find_hid(const fs::path& root, std::vector<Node>& nodes)
     for (const fs::path& entry : entries_of(root / "sys/class/hidraw")) {
         const std::string text = text_in(entry / "device/uevent").value_or("");
         const auto at = text.find("HID_ID=");
-        constexpr std::size_t length = 28; // of "HID_ID=bbbb:vvvvvvvv:pppppppp"
+        constexpr std::size_t length = 28; // length of "HID_ID=bbbb:vvvvvvvv:pppppppp"
         if (at == std::string::npos || text.size() < at + length + 1) continue;
         const std::uint16_t vendor = number_of(text.substr(at + 16, 4));
         const std::uint16_t product = number_of(text.substr(at + 25, 4));
@@ -138,7 +138,7 @@ void find_serial(const fs::path& root, std::vector<Node>& nodes)
     for (const fs::path& entry : entries_of(root / "sys/class/tty")) {
         std::error_code error;
         const fs::path interface = fs::canonical(entry / "device", error);
-        if (error) continue; // no piece of hardware
+        if (error) continue; // not backed by hardware
         const auto* const id =
             device::find_usb_id(number_of(word_in(interface.parent_path() / "idVendor")),
                                 number_of(word_in(interface.parent_path() / "idProduct")));
@@ -217,7 +217,7 @@ Facts look_at(const fs::path& root, const std::string& hd_library)
     facts.hd_wanted = !hd_library.empty() ||
                       !device::models_on_usb(device::UsbKind::touch).empty() ||
                       !device::hdapi::configured_names().empty();
-    if (!facts.hd_wanted) return facts; // to load a library is to run code in it
+    if (!facts.hd_wanted) return facts; // loading a library would run its code
     if (const auto library = device::hdapi::load_library(hd_library); !library) {
         facts.hd_trouble = library.error().message;
     }

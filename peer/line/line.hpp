@@ -46,7 +46,7 @@ private:
 
     secure::Place place_;
     std::uint64_t strangers_ = 0;
-    std::uint64_t initiations_ = 0; // of a side that has a key
+    std::uint64_t initiations_ = 0; // initiations from a side that has a key
     PendingNews news_;
 };
 

@@ -20,7 +20,7 @@ public:
     explicit Lines(std::vector<Line> lines);
 
     struct Opened {
-        std::size_t from = 0; // which of the lines
+        std::size_t from = 0; // index of the line
         std::span<const std::byte> message;
     };
     /// The plain message in a datagram; nullopt: it has none for this side. Valid until the next
@@ -40,7 +40,7 @@ public:
 
 private:
     std::vector<Line> lines_;
-    std::size_t next_ = 0; // to go on with its keys
+    std::size_t next_ = 0; // line whose keys advance in the next tick
 };
 
 } // namespace hapnet::peer::line

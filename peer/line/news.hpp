@@ -13,10 +13,10 @@ namespace hapnet::peer::line {
 
 /// News of the line to the other peer, for a person.
 enum class News : std::uint8_t {
-    sealed,          // the two have agreed on a key: from now on messages go
+    sealed,          // the two have agreed on a key: messages can be sent from now on
     other_is_plain,  // the other side plays without a key
     other_is_sealed, // the other side has a key, and this one has none
-    other_circle,    // somebody has other keys than ours
+    other_circle,    // handshakes come with keys of another circle
     moved,           // the other side is heard from another place
     same_id,         // two programs seem to have the same key and push each other out
     rekeyed,         // the two have gone over to a new key, as they do every two minutes

@@ -72,9 +72,9 @@ private:
     Datagram incoming_, outgoing_;
     std::uint64_t misnamed_ = 0;
     std::uint64_t plain_hellos_ = 0;
-    secure::Association::Counts before_; // in the tick before
+    secure::Association::Counts before_; // counts in the tick before
     PendingNews news_;
-    std::array<base::TimePoint, restarts_suspected> restarts_{}; // the newest of them, in a ring
+    std::array<base::TimePoint, restarts_suspected> restarts_{}; // ring of the newest restarts
     std::uint64_t restart_count_ = 0;
 };
 

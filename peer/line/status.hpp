@@ -17,12 +17,12 @@ struct Status {
     /// The status of a line with a key.
     struct Key {
         bool is_agreed = false;
-        std::optional<base::Duration> age; // of the key in use
+        std::optional<base::Duration> age; // age of the key in use
         secure::Association::Counts counts;
         std::uint64_t misnamed = 0;
-        std::optional<secure::Place> place; // of the other side
+        std::optional<secure::Place> place; // place of the other side
     };
-    std::uint64_t strangers = 0; // datagrams from elsewhere
+    std::uint64_t strangers = 0; // datagrams from other places than the other side's
     std::optional<Key> key;      // nullopt: messages are plain
 };
 

@@ -15,7 +15,7 @@ namespace hapnet::peer::loop {
 
 namespace {
 
-constexpr int reads_max = 4; // of 64 events each: a switch has two or three
+constexpr int reads_max = 4; // reads per call, of up to 64 events each
 
 } // namespace
 
@@ -24,7 +24,7 @@ bool KeysDown::on_events(std::span<const input_event> events)
     for (const input_event& event : events) {
         if (event.type == EV_SYN && event.code == SYN_DROPPED) return false;
         if (event.type != EV_KEY || event.code >= down_.size()) continue;
-        down_.set(event.code, event.value != 0); // 2: it repeats itself, as it is held
+        down_.set(event.code, event.value != 0); // a value of 2 repeats a held key
     }
     return true;
 }
@@ -83,7 +83,7 @@ bool EvdevSwitch::is_held()
     for (int i = 0; i < reads_max && descriptor_ >= 0; ++i) {
         const auto bytes = read(descriptor_, events.data(), sizeof events);
         if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) break;
-        if (bytes <= 0) { // ENODEV: it has been pulled out
+        if (bytes <= 0) { // ENODEV: the input was unplugged
             give_up();
             break;
         }

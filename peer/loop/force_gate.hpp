@@ -44,7 +44,7 @@ public:
     /// state after the tick before.
     [[nodiscard]] Withheld look(const device::Sample& sample, device::GovernorState governor)
     {
-        const bool is_held = dead_man_.is_held(sample); // every tick, as it reads its input
+        const bool is_held = dead_man_.is_held(sample); // in every tick: it reads its input
         if (is_stopping()) return Withheld::by_stop;
         if (is_stopped_in_emergency()) return Withheld::by_emergency_stop;
         // A switch that is let go for a moment must not make the force jump: it comes back when the

@@ -18,7 +18,7 @@ namespace hapnet::peer::loop {
 struct TimedEvent {
     Event event = Event::met;
     base::TimePoint at;
-    std::uint16_t about = 0; // the id of another peer; 0: it is about all, or not known
+    std::uint16_t about = 0; // id of the peer that it is about; 0: all, or not known
 };
 
 /// News of the device for a person, and its time.

@@ -14,7 +14,7 @@ namespace hapnet::peer::loop {
 namespace {
 
 constexpr int servo_priority = 45;    // above the emulator's, below the kernel's own threads
-constexpr int receive_rounds_max = 8; // of up to 64 datagrams
+constexpr int receive_rounds_max = 8; // per tick, of up to 64 datagrams each
 
 OtherStatus describe_other(const Remote& other, const line::Line& line, base::TimePoint now)
 {

@@ -36,7 +36,7 @@ public:
         Side& side;
         device::Rig& rig;
         net::UdpSocket& socket;
-        std::vector<net::Endpoint> remotes; // where the lines begin
+        std::vector<net::Endpoint> remotes; // places of the other peers at the start
         line::Lines& lines;
         Journal& journal;
         Watchdog& watchdog;
@@ -93,7 +93,7 @@ private:
     void describe(ServoStatus& status) const;
 
     Parts parts_;
-    std::vector<secure::Place> places_; // of parts_.remotes
+    std::vector<secure::Place> places_; // parts_.remotes in packed form
     monitor::DeviceReporter reporter_;
     LoopCounters counters_;
     std::optional<base::TimePoint> first_tick_;
@@ -103,7 +103,7 @@ private:
     /// 2000 a second, and a second of them at once: a true path duplicates no more than all.
     monitor::RateLimit without_effect_{2000, std::chrono::microseconds{500}};
     SessionNotes notes_;
-    Withheld withheld_ = Withheld::no; // in the last tick
+    Withheld withheld_ = Withheld::no; // why force was withheld in the last tick
     std::atomic<net::SendOutcome> sending_{net::SendOutcome::sent};
     std::atomic<bool> running_{false};
     std::atomic<bool> done_{false};

@@ -27,7 +27,7 @@ struct LoopCounters {
     net::SendOutcome last_send = net::SendOutcome::sent;
     std::uint64_t withheld = 0;   // ticks in which a person or a signal had stopped the force
     std::uint64_t unrecorded = 0; // datagrams of a flood that the record leaves out
-    std::uint64_t too_long = 0;   // messages for which its rows have no room
+    std::uint64_t too_long = 0;   // messages too long for the record's rows
 };
 
 /// One of the others: its clock, the path to it and back, and the line.
@@ -38,8 +38,8 @@ struct OtherStatus {
     std::uint32_t clock_jumps = 0;
     PathsReport paths;
     std::uint32_t session = 0; // the number of the session with it; 0: none
-    bool is_heard = false;     // recently
-    bool is_gone = false;      // it said goodbye
+    bool is_heard = false;     // its newest state is not stale
+    bool is_gone = false;      // the peer has said goodbye
     line::Status line;
 };
 
@@ -48,12 +48,12 @@ struct ServoStatus {
     base::TimePoint at;
     base::Duration elapsed{}; // since the first tick
     record::Phase phase = record::Phase::waiting;
-    bool is_remote_heard = false; // recently
-    base::Force force;            // that the device was told, at the hand
+    bool is_remote_heard = false; // at least one other peer's newest state is not stale
+    base::Force force;            // force that the device was told, at the hand
     LoopCounters loop;
     Counters messages;
     std::optional<Session> session;
-    bool is_left = false; // acts as A
+    bool is_left = false; // this peer acts as A
     std::array<OtherStatus, peers_max - 1> others{};
     std::size_t others_count = 0;
     [[nodiscard]] bool is_pair() const { return others_count <= 1; }

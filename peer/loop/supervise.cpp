@@ -45,7 +45,7 @@ public:
 private:
     std::exception_ptr failure_;
     std::atomic<bool> failed_{false};
-    std::jthread thread_; // last: it uses the others
+    std::jthread thread_; // declared last: it uses the other members
 };
 
 void announce(const Supervised& supervised, const std::string& ready)
@@ -127,7 +127,7 @@ void look_after(const Supervised& supervised, Stops& stops)
                        net::monotonic_now() + every);
     stops.look(net::monotonic_now());
     monitor.on_sending(supervised.servo.sending());
-    monitor.drain(); // first: frames are made of it
+    monitor.drain(); // first: it feeds the frames for the clients below
     if (control_session != nullptr) control_session->serve(net::monotonic_now());
     if (plot != nullptr) plot->serve(net::monotonic_now());
 }
@@ -153,7 +153,7 @@ void supervise(const Supervised& supervised, const std::string& ready)
             monitor.show(net::monotonic_now());
         }
     } catch (...) {
-        supervised.stop.request(); // whatever it is: the hand comes first
+        supervised.stop.request(); // whatever the error is: the hand comes first
         thread.join();
         throw;
     }

@@ -23,7 +23,7 @@ struct Supervised {
     net::TextQueue& screen;                             // stderr
     monitor::ControlSession* control_session = nullptr; // null: there is no control socket
     monitor::PlotStream* plot = nullptr;                // null: there is no --plotjuggler
-    net::ServiceManager* manager = nullptr;             // null: nobody is told how it goes
+    net::ServiceManager* manager = nullptr;             // null: no service manager is told
 };
 
 /// The time after a stop was asked for. Text and record that are not written by then are given up.

@@ -14,8 +14,8 @@ namespace hapnet::peer::loop {
 /// The action after a silence of the loop.
 enum class Alarm : std::uint8_t {
     none,
-    halt,  // longer than any tick takes: zero force
-    fault, // longer than the governor tolerates: it latches a fault, too
+    halt,  // silent for longer than any tick takes: zero force
+    fault, // silent for longer than the governor tolerates: a fault, too
 };
 [[nodiscard]] Alarm alarm_after(base::Duration silence);
 
@@ -75,13 +75,13 @@ private:
 
     device::Device& device_;
     const net::CrashSignal* crash_;
-    std::atomic<base::Duration::rep> last_beat_{resting}; // on the timeline
+    std::atomic<base::Duration::rep> last_beat_{resting}; // time of the last beat, or `resting`
     std::atomic<bool> fault_{false};
     std::atomic<bool> dying_{false};
     std::atomic<bool> ending_{false};
     std::atomic<std::uint64_t> halts_{0};
-    Alarm alarm_ = Alarm::none; // of the silence now; the watching thread's own
-    std::thread thread_;        // last: it uses the others
+    Alarm alarm_ = Alarm::none; // alarm of the present silence; the watching thread's own
+    std::thread thread_;        // declared last: it uses the other members
 };
 
 } // namespace hapnet::peer::loop

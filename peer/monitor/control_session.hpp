@@ -25,7 +25,7 @@ public:
         loop::ForceGate& gate;
         const Options& options;
         Monitor& monitor;
-        std::string device; // its description
+        std::string device; // description of the device
         Recovery recovery{};
     };
 
@@ -47,7 +47,7 @@ private:
 
     Parts parts_;
     control::Subject subject_;
-    std::optional<loop::ServoStatus> status_; // the newest
+    std::optional<loop::ServoStatus> status_; // newest status of the servo
     std::optional<base::TimePoint> next_request_;
 };
 

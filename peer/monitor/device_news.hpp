@@ -12,9 +12,9 @@ namespace hapnet::peer::monitor {
 
 /// The ways in which the holder of a device can end its fault.
 struct Recovery {
-    bool by_holder = false; // it has one for its stylus
+    bool by_holder = false; // the device has a holder for its stylus
     bool by_button = true;
-    bool by_simulated_hand = false; // which does it by itself
+    bool by_simulated_hand = false; // a simulated hand ends the fault by itself
 };
 [[nodiscard]] Recovery recovery_of(const device::Device& device);
 
@@ -24,8 +24,8 @@ enum class DeviceChange : std::uint8_t { fault, calibration, energy };
 /// A change of the device that a person, or a program, should be told of.
 struct DeviceNews {
     device::CalibrationStep calibration = device::CalibrationStep::done;
-    device::Latched fault{};                // none: it is, or is again, without one
-    std::uint64_t energy_limited_ticks = 0; // since the start
+    device::Latched fault{};                // none: the device has no fault, or no longer has one
+    std::uint64_t energy_limited_ticks = 0; // since the program's start
     DeviceChange change = DeviceChange::fault;
     Recovery recovery{};
 };

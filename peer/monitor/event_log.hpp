@@ -15,9 +15,9 @@ namespace hapnet::peer::monitor {
 /// Something that happened, for programs and, with words, for a person.
 struct LoggedEvent {
     base::TimePoint at;
-    std::string_view name;            // docs/use/peer.md has all
-    std::uint16_t about = 0;          // the id of another peer; 0: it is about all, or not known
-    std::string words{};              // "": a person need not be told
+    std::string_view name;            // docs/use/peer.md lists all names
+    std::uint16_t about = 0;          // id of the peer that it is about; 0: all, or not known
+    std::string words{};              // text for a person; "": no text is shown
     nlohmann::ordered_json details{}; // further keys; null: none
 };
 
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] const net::TextQueue& queue() const { return queue_; }
 
 private:
-    std::optional<net::TextQueue> own_; // nullopt: stdout
+    std::optional<net::TextQueue> own_; // nullopt: events go to stdout
     net::TextQueue& queue_;
 };
 

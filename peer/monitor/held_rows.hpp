@@ -34,7 +34,7 @@ private:
     static constexpr std::size_t terms_max = std::size_t{8} * 600;
 
     record::Layout layout_;
-    base::TimePoint now_{}; // of the newest row
+    base::TimePoint now_{}; // time of the newest row
     base::RollingBytes rows_;
     std::deque<Terms> terms_;
 };

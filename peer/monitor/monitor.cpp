@@ -83,7 +83,7 @@ std::string_view describe(net::SendOutcome outcome)
 {
     switch (outcome) {
     case net::SendOutcome::sent:
-    case net::SendOutcome::buffer_full: // for the moment
+    case net::SendOutcome::buffer_full: // passes soon
     // The other host has said it, or this one of an earlier datagram: no program listens there yet.
     case net::SendOutcome::refused: return "";
     case net::SendOutcome::no_route: return "there is no route to it; is the network up?";

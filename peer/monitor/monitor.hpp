@@ -23,7 +23,7 @@ namespace hapnet::peer::monitor {
 
 /// The values in the status line.
 struct StatusLine {
-    std::vector<std::uint16_t> awaited; // the others that have not answered; 0: whoever does
+    std::vector<std::uint16_t> awaited; // peers that have not answered yet; 0: any peer
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
     /// The round trip to each of the others: the shortest since the line before, or the last that
@@ -32,15 +32,15 @@ struct StatusLine {
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
     std::uint64_t missed = 0;
-    net::SendOutcome sending = net::SendOutcome::sent; // of late
+    net::SendOutcome sending = net::SendOutcome::sent; // outcome of the newest datagram
 };
 
 /// Names that appear in the texts for a person.
 struct Named {
     std::uint16_t peer_id = 0;
     std::vector<std::uint16_t> others{0}; // the ids of the roster
-    std::string body = "body";            // the first of the shared ones
-    bool has_several = false;             // bodies
+    std::string body = "body";            // name of the first shared body
+    bool has_several = false;             // several bodies are shared
 
     /// "the cube"; "the bodies" where there are several.
     [[nodiscard]] std::string shared() const { return has_several ? "the bodies" : "the " + body; }
@@ -119,7 +119,7 @@ private:
     std::uint64_t events_left_out_ = 0;
     Named named_;
     net::TerminalLine line_;
-    std::map<std::uint16_t, base::Duration> round_trips_; // the shortest since the last line
+    std::map<std::uint16_t, base::Duration> round_trips_; // shortest since the last line
     StatusLine status_;
     StatusLine shown_;
     std::optional<base::TimePoint> next_show_;

@@ -30,7 +30,7 @@ void PlotStream::serve(base::TimePoint now)
     text_ = fmt::format(R"({{"timestamp":{:.6f},"peer_{}":)", at_s, peer_id_);
     const std::size_t head = text_.size();
     frames_(text_, 0);
-    if (text_.size() == head) return; // nothing since
+    if (text_.size() == head) return; // no new frame
     if (text_.back() == '\n') text_.pop_back();
     text_ += '}';
     std::ignore = socket_.send(to_, std::as_bytes(std::span{text_}));

@@ -92,20 +92,21 @@ struct Recorder::State {
         }
     }
 
-    static constexpr std::uint64_t rows_between_looks = 64; // 30 ms of two peers
+    static constexpr std::uint64_t rows_between_looks = 64; // 30 ms with two peers
 
-    std::optional<record::Writer> writer; // the thread's own, as what follows
+    // Members of the writing thread alone, up to `given`.
+    std::optional<record::Writer> writer;
     std::optional<HeldRows> held;
-    std::string kept_head; // the first line of a file with what is held
+    std::string kept_head; // first line of a file with held rows
     std::uint64_t taken = 0;
-    std::uint64_t given = 0; // to the writer
+    std::uint64_t given = 0; // rows given to the writer
     const std::optional<base::Duration> span;
     std::int64_t peer_id = 0;
     net::Keeper keeper;
     moodycamel::BlockingReaderWriterCircularBuffer<record::Row> rows{rows_max};
     std::atomic<std::uint64_t> written{0};
     std::atomic<std::uint64_t> lost{0};
-    std::exception_ptr failure; // once it has failed
+    std::exception_ptr failure; // valid once has_failed is true
     std::atomic<bool> has_failed{false};
     std::atomic<bool> is_closed{false};
     std::atomic<bool> is_done{false};

@@ -26,11 +26,11 @@ public:
     static constexpr std::size_t rows_max = 16384;
 
     struct Setup {
-        std::optional<record::Writer> writer{}; // of the whole run
-        nlohmann::json config{};                // of what is held: as the record's
+        std::optional<record::Writer> writer{}; // record of the whole run
+        nlohmann::json config{};                // configuration in the header of saved rows
         record::Layout layout{};
-        std::optional<base::Duration> held{}; // so much of the last rows
-        std::string keep_in{};                // the folder in which it is saved
+        std::optional<base::Duration> held{}; // time span of the last rows to hold in memory
+        std::string keep_in{};                // folder in which held rows are saved
     };
 
     explicit Recorder(Setup setup);

@@ -30,8 +30,8 @@ struct Run {
     const loop::ServoStatus& status;
     std::string device;
     bool is_record_whole = true;
-    std::uint64_t rows_lost = 0;  // on their way to the record
-    std::uint64_t texts_lost = 0; // messages for a person that nobody took
+    std::uint64_t rows_lost = 0;  // rows lost on their way to the record
+    std::uint64_t texts_lost = 0; // messages for a person that were not read in time
 };
 
 /// Which program it is.

@@ -23,7 +23,7 @@ private:
     std::optional<base::TimePoint> heard_;
     std::uint64_t sequence_ = 0;
     base::Duration silent_for_{};
-    bool was_well_ = false; // in this step: a loss before it is none that was tried
+    bool was_well_ = false; // the device was without a fault at some time in this step
     device::Fault fault_ = device::Fault::none;
 };
 

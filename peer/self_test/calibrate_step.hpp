@@ -21,8 +21,8 @@ public:
 private:
     std::optional<base::TimePoint> start_;
     base::Duration took_{};
-    Prompt prompt_ = Prompt::nothing; // the last one; nothing: all is done
-    bool has_failed_ = false;         // by the device's own word
+    Prompt prompt_ = Prompt::nothing; // last prompt; nothing: the step has passed
+    bool has_failed_ = false;         // the device reports a failed calibration
 };
 
 } // namespace hapnet::peer::self_test

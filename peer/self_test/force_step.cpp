@@ -9,7 +9,8 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
-constexpr double share_wanted = 0.75; // of the peak: a governor's ramp is on its way meanwhile
+// Least share of the peak that must be reached: the governor ramps at the same time.
+constexpr double share_wanted = 0.75;
 
 } // namespace
 

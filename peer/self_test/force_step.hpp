@@ -36,13 +36,13 @@ private:
     [[nodiscard]] static double wanted_n(base::Duration into);
 
     DeadMan dead_man_;
-    bool was_up_ = false; // the button
+    bool was_up_ = false; // the button was seen up
     std::optional<base::TimePoint> start_;
     std::optional<base::TimePoint> held_since_;
     std::optional<base::TimePoint> released_at_;
     double force_most_n_ = 0.0;
     bool is_complete_ = false;
-    bool was_released_ = false; // in the middle
+    bool was_released_ = false; // the button was released after it was held
     bool outlasted_release_ = false;
     device::Fault fault_ = device::Fault::none;
 };

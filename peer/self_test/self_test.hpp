@@ -44,7 +44,7 @@ private:
     struct Planned {
         std::string_view name;
         Step step;
-        std::string why_not; // "": it is done
+        std::string why_not; // why the step is skipped; "": it is done
     };
 
     void skip_to_next();

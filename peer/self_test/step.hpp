@@ -23,14 +23,14 @@ using base::name_of;
 /// The instruction for the person.
 enum class Prompt : std::uint8_t {
     nothing,
-    hold_still, // it reads
-    wait,       // the device is at it
+    hold_still, // reports are read
+    wait,       // the device is calibrating
     dock,
     sweep,
     undock,
     release_button,
     hold_button,
-    keep_button, // the force comes
+    keep_button, // the force is applied
     pull_cable,
 };
 /// For a person; "" for nothing.
@@ -72,7 +72,7 @@ constexpr auto fields_of(base::Tag<Outcome>)
 struct StepInput {
     device::Sample sample;
     device::CalibrationStep calibration = device::CalibrationStep::done;
-    base::Force applied; // of the tick before, at the hand
+    base::Force applied; // force of the tick before, at the hand
 };
 
 /// The request of a step to the device in a tick.

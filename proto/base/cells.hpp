@@ -13,8 +13,8 @@ namespace hapnet::base {
 
 /// The style of a table's cells in their lines.
 struct CellStyle {
-    char separator = ',';      // ' ': blanks and tabs, as many as there are
-    bool trims_blanks = false; // around each cell; always where blanks separate
+    char separator = ',';      // ' ': any number of blanks and tabs
+    bool trims_blanks = false; // drops blanks around each cell; always with separator ' '
 };
 
 /// Takes lines of cells off a text (RFC 4180). A cell in quotes may hold separators, ends of lines

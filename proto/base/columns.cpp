@@ -244,7 +244,7 @@ private:
     std::string_view line_;
     std::span<const ColumnKind> kinds_;
     const Columns& columns_;
-    std::vector<FirstLine> ways_; // to cut the first line
+    std::vector<FirstLine> ways_; // ways to cut the first line into cells
 };
 
 } // namespace

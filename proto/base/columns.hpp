@@ -20,8 +20,8 @@ namespace hapnet::base {
 /// Names the column of a table that holds values of one kind, where its own name does not say so.
 struct Column {
     std::string what; // the name of a ColumnKind
-    std::string name; // in the header; of a table without one, the column's number, from 1
-    std::string unit; // empty: as the name ends
+    std::string name; // name in the header; without a header the column's number, from 1
+    std::string unit; // empty: the unit that the name ends with
 };
 using Columns = std::vector<Column>;
 
@@ -34,7 +34,7 @@ using Columns = std::vector<Column>;
 /// nullopt: the cell is no such number, or one of several marks.
 struct WrittenNumber {
     double value = 0.0;
-    char mark = '\0'; // '.' or ','; 0: it has none
+    char mark = '\0'; // '.' or ','; '\0': no mark
 };
 [[nodiscard]] std::optional<WrittenNumber> number_in(std::string_view cell);
 
@@ -53,11 +53,11 @@ struct ColumnKind {
     std::span<const ColumnUnit> units{};
     /// Value of 1 in a column that is called "<what>" alone; nullopt: the name has to say a unit.
     std::optional<double> bare_factor{};
-    double most = 0.0; // after its unit was applied
+    double most = 0.0; // largest value, after conversion by its unit
     std::string_view most_text{};
     std::string_view short_name{}; // "t": its column may also be called "t_<unit>"
     bool is_optional = false;
-    bool may_stand_alone = false; // a single column without a name is read by others
+    bool may_stand_alone = false; // a single column without a name is left to other readers
     // Used in messages.
     std::string_view usual_names{};  // "delay_ns, delay_us, delay_ms or delay_s"
     std::string_view example_unit{}; // ":ms"
@@ -65,7 +65,7 @@ struct ColumnKind {
 
 /// A column of numbers that are written without their unit.
 struct NumberColumn {
-    std::string name; // for messages
+    std::string name; // name of the column in messages
     std::size_t place = 0;
     double factor = 1.0;
     double most = 0.0;
@@ -79,7 +79,7 @@ public:
     [[nodiscard]] Result<double> read(std::string_view cell, const NumberColumn& column);
 
 private:
-    char mark_ = '\0'; // of the numbers so far
+    char mark_ = '\0'; // decimal mark of the numbers so far; '\0': none yet
 };
 
 /// The layout of a table, and the columns that hold the wanted values.

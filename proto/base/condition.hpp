@@ -16,7 +16,7 @@ enum class Comparison : std::uint8_t { less, at_most, equal, unequal, at_least, 
 /// A statement about the statistics: "up.received>1000", "down.dropped.random_loss >= 5",
 /// "valid == true" (a truth is 1 or 0).
 struct Condition {
-    std::string path; // of keys, with dots between them
+    std::string path; // keys with dots between them
     Comparison comparison = Comparison::more;
     double number = 0.0; // finite
 

@@ -28,7 +28,7 @@ using Shape = ValueKind::Shape;
 /// The format of numbers in the cells of a column.
 struct CellScale {
     std::optional<int> decimals{};
-    std::optional<double> ns_per_unit{}; // of times
+    std::optional<double> ns_per_unit{}; // for times
 };
 
 /// The text of a value.

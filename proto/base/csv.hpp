@@ -18,7 +18,7 @@ namespace hapnet::base {
 /// The lines of a table as they stand in a text.
 struct CsvTable {
     struct Line {
-        std::size_t number = 0; // in the text, from 1
+        std::size_t number = 0; // number of the line in the text, from 1
         std::vector<std::string> cells;
     };
 

@@ -34,9 +34,9 @@ namespace hapnet::base {
 
 /// A name of Prometheus, and what kind of figure it is. A counter only grows.
 struct Metric {
-    std::string_view name; // without the unit; empty: none by itself
+    std::string_view name; // without the unit; empty: the field itself is no metric
     bool is_counter = false;
-    std::string_view label; // of what stands below it
+    std::string_view label; // label of the metrics below this field
 };
 
 /// The way in which programs print a field. Words and names are for the readers of the output.
@@ -44,11 +44,11 @@ struct Telling {
     /// The words behind a count, in a line for people: "in flight". A map has the names
     /// of its elements there instead.
     std::optional<std::string_view> words;
-    bool is_told_always = false; // a count of 0, too
+    bool is_told_always = false; // even a count of 0 is printed
     Metric metric;
-    std::optional<int> decimals;      // of a number in JSON; nullopt: as many as it takes
-    bool is_left_out_if_none = false; // the key itself, where there is no value: else it is null
-    bool is_without_zeros = false;    // a map in JSON, of its counts that are 0
+    std::optional<int> decimals;      // decimals in JSON; nullopt: as many as needed
+    bool is_left_out_if_none = false; // no key without a value; otherwise null
+    bool is_without_zeros = false;    // maps in JSON leave out counts that are 0
 };
 
 /// The ways to say how a field is printed, for a description that is a `Self`.
@@ -182,7 +182,7 @@ struct ComputedPart {};
 
 template <typename... Members>
 struct Fields {
-    std::string_view name; // of the struct where a text names it: the law of a loss
+    std::string_view name; // name of the struct where a text names it: the law of a loss
     std::tuple<Members...> members;
 };
 

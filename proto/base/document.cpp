@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t dots_max = 256; // those of a line, outside of strings
+    static constexpr std::uint32_t dots_max = 256; // dots in one line, outside of strings
 
     /// Bytes that no text has, neither in TOML nor elsewhere: of a program, a picture, an archive.
     [[nodiscard]] static bool is_of_no_text(char c)
@@ -106,7 +106,7 @@ private:
 
     Place place_{1, 0};
     std::uint32_t dots_ = 0;
-    char quote_ = '\0'; // which string we are in; '#': a comment
+    char quote_ = '\0'; // opening quote of the current string; '#': a comment; '\0': neither
     char last_closed_ = '\0';
     bool is_escaped_ = false;
 };
@@ -218,14 +218,14 @@ private:
             open_ += first;
             key_ = at_ + 1;
             if (first == '{') ++at_;
-            return std::nullopt; // the run comes to what is inside
+            return std::nullopt; // the values inside follow
         }
         if (first == '"' || first == '\'' || first == '#') return std::nullopt;
         const auto end = std::min(line_.find_first_of(",]}#\r", at_), line_.size());
         const auto word = trimmed(line_.substr(at_, end - at_));
         const auto column = static_cast<std::uint32_t>(at_ + 1);
         at_ = end;
-        constexpr std::size_t size_max = 60; // no more than a line of a terminal
+        constexpr std::size_t size_max = 60; // no more than fits on a line of a terminal
         if (!is_bare_text(word) || word.size() > size_max) return std::nullopt;
         const auto key = trimmed(line_.substr(key_, key_end - key_));
         const std::string value =
@@ -282,7 +282,7 @@ private:
     std::size_t at_ = 0;
     std::size_t key_ = 0;    // where the key before the next '=' begins
     std::size_t string_ = 0; // where the last string begins
-    std::string open_;       // brackets of values
+    std::string open_;       // open brackets of values
 };
 
 std::string_view line_of(std::string_view text, std::uint32_t number)

@@ -34,7 +34,7 @@ struct Node {
 
 struct Entry {
     std::string key;
-    Place place; // of the key
+    Place place; // place of the key
     Node value;
 };
 

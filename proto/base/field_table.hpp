@@ -25,7 +25,7 @@ struct WrittenAs {
     void (*read)(const void* format, const Node& node, void* value, Reading& reading);
     std::string (*print)(const void* format, const void* value);
     std::string (*describe)(const void* format);
-    std::string (*example)(const void* format); // empty: the format has none
+    std::string (*example)(const void* format); // empty: the format has no example
 };
 
 /// Uses a value that exists only during the call.
@@ -36,7 +36,8 @@ struct FieldRow {
     std::string_view key{};
     std::string_view about{};
     std::string_view absent{};
-    std::size_t offset = 0; // from the struct's first byte, of the member or of what it is made of
+    /// Bytes from the start of the struct to the member, or to the source of a computed figure.
+    std::size_t offset = 0;
     /// Makes a computed value and passes it on. nullptr: the row is a member.
     void (*compute)(const void* of, const UseValue& use) = nullptr;
     /// Finds the struct that holds the member, if it is not the owner itself. nullptr: it is the
@@ -45,9 +46,9 @@ struct FieldRow {
     const ValueKind* kind = nullptr;
     Telling telling{};
     const void* format = nullptr;
-    const WrittenAs* written = nullptr;      // nullptr: no text has it
-    std::optional<int> decimals{};           // in a cell of CSV; nullopt: as many as it takes
-    std::optional<std::size_t> printed_if{}; // where the bool is that says so
+    const WrittenAs* written = nullptr;      // nullptr: the field stands in no text
+    std::optional<int> decimals{};           // decimals in CSV; nullopt: as many as needed
+    std::optional<std::size_t> printed_if{}; // offset of the bool that makes it printed
     bool is_required = false;
     bool is_always_printed = false;
     bool is_spare = false;
@@ -60,8 +61,8 @@ struct FieldRow {
 };
 
 struct FieldTable {
-    std::string_view name;          // of the struct where a text names it: the law of a loss
-    const void* defaults = nullptr; // a struct with them
+    std::string_view name;          // name of the struct where a text names it: the law of a loss
+    const void* defaults = nullptr; // a struct that holds the defaults
     std::vector<FieldRow> rows;
 };
 
@@ -92,7 +93,7 @@ enum class Print { all, needed };
 struct KeyRow {
     std::string key;
     std::string values;     // what may be written: "a time from 0ms to 10s"
-    std::string by_default; // as it is written, or "required"; empty: there is none
+    std::string by_default; // default as it is written, or "required"; empty: no default
     std::string about;
 
     static constexpr std::string_view required = "required";

@@ -130,7 +130,7 @@ template <typename Struct, typename Compute, typename Owner>
 void add_row(std::vector<FieldRow>& rows, const void* root, const Computed<Struct, Compute>& figure,
              const Owner& owner)
 {
-    const Struct& own = owner; // of which it may be a base
+    const Struct& own = owner; // Struct may be a base class of Owner
     FieldRow row{.key = figure.key,
                  .about = figure.about,
                  .offset = offset_in(root, &own),

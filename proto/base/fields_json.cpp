@@ -24,7 +24,7 @@ double rounded(double value, int decimals)
 {
     const double scale = std::pow(10.0, decimals);
     const double scaled = std::round(value * scale);
-    return std::isfinite(scaled) ? scaled / scale + 0.0 : value; // and not -0
+    return std::isfinite(scaled) ? scaled / scale + 0.0 : value; // + 0.0 turns -0 into 0
 }
 
 Ordered json_of_number(double number, const JsonScale& scale)
@@ -140,7 +140,7 @@ bool read_json(const ValueKind& kind, const Json& json, void* value)
     switch (kind.shape) {
     case Shape::opaque:
     case Shape::time:
-    case Shape::map: return false; // these are told, and never read
+    case Shape::map: return false; // printed only, never read
     case Shape::maybe:
         kind.clear(value);
         return json.is_null() || read_json(*kind.element, json, kind.add(value));

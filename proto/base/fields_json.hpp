@@ -16,9 +16,9 @@ namespace hapnet::base {
 
 /// The scale of numbers below a key.
 struct JsonScale {
-    double ns_per_unit = 0.0; // of times; 0: no key has named a unit
+    double ns_per_unit = 0.0; // for times; 0: no key has named a unit
     std::optional<int> decimals{};
-    bool leaves_out_zeros = false; // of maps
+    bool leaves_out_zeros = false; // maps leave out elements that are 0
 };
 
 [[nodiscard]] nlohmann::ordered_json json_of(const ValueKind& kind, const void* value,

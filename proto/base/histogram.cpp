@@ -86,7 +86,7 @@ Duration DurationHistogram::value_of(std::uint64_t rank, std::size_t bin, std::u
     if (rank >= count_) return duration(max_);
     const std::uint64_t low = std::max(lower_edge(bin), min_);
     const std::uint64_t high = std::min(upper_edge(bin), max_);
-    const double place = static_cast<double>(rank - below) - 0.5; // in the middle of its share
+    const double place = static_cast<double>(rank - below) - 0.5; // middle of the share
     const double share = place / static_cast<double>(counts_[bin]);
     return duration(low + static_cast<std::uint64_t>(share * static_cast<double>(high - low)));
 }
@@ -107,7 +107,7 @@ std::optional<Quantiles> DurationHistogram::quantiles() const
     if (count_ == 0) return std::nullopt;
     std::size_t bin = first_bin();
     std::uint64_t below = 0;
-    const auto next = [&](double q) { // not below the one before
+    const auto next = [&](double q) { // each q must not be below the previous one
         const auto wanted = rank_of(q);
         for (; bin + 1 < bins && below + counts_[bin] < wanted; ++bin) below += counts_[bin];
         return value_of(wanted, bin, below);
@@ -143,7 +143,7 @@ std::optional<Duration> DurationHistogram::max() const
 
 std::uint64_t DurationHistogram::count_above(Duration limit) const
 {
-    std::uint64_t below = 0; // all that are in the bins before
+    std::uint64_t below = 0; // number of values in the earlier bins
     for (std::size_t bin = first_bin(); bin < end_bin(); ++bin) {
         const std::uint64_t last = below + counts_[bin];
         if (last > below && value_of(last, bin, below) > limit) {

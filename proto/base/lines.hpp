@@ -44,8 +44,8 @@ private:
     [[nodiscard]] bool find_next();
 
     std::string_view rest_;
-    std::size_t number_ = 0; // of the last line of what was given last
-    std::size_t begun_ = 0;  // of its first line
+    std::size_t number_ = 0; // last line of the result that was given last
+    std::size_t begun_ = 0;  // first line of that result: cells may hold ends of lines
 };
 
 /// The text without the blanks around it.

@@ -67,7 +67,7 @@ double normal_cdf(double z)
     constexpr std::array<double, 5> b{45507.789335026729956, 10260.932208618978205,
                                       976.09855173777669322, 47.20258190468824187, 1.0};
     constexpr double third_quartile = 0.67448975;
-    constexpr double most = 38.6; // P(Z > 38.6) is no double
+    constexpr double most = 38.6; // P(Z > 38.6) is too small for a double
     if (z != z) return z;
     if (std::abs(z) <= third_quartile) {
         return 0.5 + z * polynomial(a, z * z) / polynomial(b, z * z);

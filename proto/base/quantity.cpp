@@ -30,7 +30,7 @@ std::size_t exponent_size(std::string_view text)
 }
 
 struct Written {
-    std::string_view digits; // with the sign
+    std::string_view digits; // digits with their sign
     int exponent = 0;
     std::string_view unit;
 };
@@ -46,7 +46,7 @@ std::optional<Written> written_in(std::string_view text)
         if (power.starts_with('+')) power.remove_prefix(1);
         const auto [rest, error] =
             std::from_chars(power.data(), power.data() + power.size(), written.exponent);
-        constexpr int exponent_max = 10'000; // far beyond all doubles, and safe to add to
+        constexpr int exponent_max = 10'000; // far beyond all doubles, without overflow in sums
         if (error != std::errc{} || std::abs(written.exponent) > exponent_max) return std::nullopt;
         written.unit.remove_prefix(size);
     }
@@ -118,7 +118,7 @@ std::string with_units(std::string_view number, const QuantityKind& kind)
         const auto end = std::min(rest.find_first_of(", "), rest.size());
         const auto example = written_in(rest.substr(0, end));
         rest.remove_prefix(std::min(end + 1, rest.size()));
-        if (!example || example->digits.empty()) continue; // "or"
+        if (!example || example->digits.empty()) continue; // the word "or"
         std::string cure = fmt::format("{}{}", number, example->unit);
         if (std::ranges::find(cures, cure) == cures.end()) cures.push_back(std::move(cure));
     }

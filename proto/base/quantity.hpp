@@ -24,9 +24,9 @@ struct PhysicalUnit {
 
 /// A kind of quantity, and how it is written.
 struct QuantityKind {
-    std::string_view name;             // with its article: "a length"
+    std::string_view name;             // name with its article: "a length"
     std::string_view examples;         // "40mm, 0.5m or 500um"
-    std::array<PhysicalUnit, 4> units; // the largest of those that are printed first
+    std::array<PhysicalUnit, 4> units; // printed ones: the largest first
 };
 
 inline constexpr QuantityKind length_kind{

@@ -39,7 +39,7 @@ private:
     Duration span_;
     std::size_t capacity_;
     std::unique_ptr<char[]> ring_; // NOLINT(modernize-avoid-c-arrays): not filled with zeros
-    std::size_t begin_ = 0;        // of the oldest piece
+    std::size_t begin_ = 0;        // start of the oldest piece
     std::size_t used_ = 0;
     std::deque<Piece> pieces_;
 };

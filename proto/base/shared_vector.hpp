@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    std::shared_ptr<const std::vector<T>> elements_; // null: there are none
+    std::shared_ptr<const std::vector<T>> elements_; // nullptr: no elements
 };
 
 /// The format of its values: that of a vector.

@@ -56,12 +56,12 @@ struct ValueKind {
         flag,
         whole, // a whole number
         number,
-        time, // nanoseconds, told in the unit that the key ends with
+        time, // nanoseconds, printed in the unit that the key ends with
         text,
         choice, // one of `names`
-        maybe,  // a list of one element at most
+        maybe,  // an optional: a list of one element at most
         list,
-        map,   // elements by names
+        map,   // elements with names
         record // a described struct
     };
 
@@ -80,8 +80,8 @@ struct ValueKind {
     const ValueKind* element = nullptr;
     std::size_t (*size)(const void* value) = nullptr;
     void* (*at)(void* value, std::size_t index) = nullptr;
-    std::size_t length = 0; // of a list that cannot grow
-    // nullptr: it is such a list
+    std::size_t length = 0; // length of a list that cannot grow
+    // nullptr: a list that cannot grow
     void (*clear)(void* value) = nullptr;
     /// Adds an element at the end. Elements are added one at a time, so that a text with many wrong
     /// elements takes no more memory than its readable elements. A maybe has to be empty.

@@ -42,7 +42,7 @@ std::string visible_but(std::string_view kept, std::string_view text)
 {
     const bool is_plain = std::ranges::all_of(
         text, [](char c) { return (c >= ' ' && c <= '~') || c == '\n' || c == '\t'; });
-    if (is_plain && !kept.empty()) return std::string{text}; // rows by the million are
+    if (is_plain && !kept.empty()) return std::string{text}; // fast path for millions of plain rows
     std::string out;
     while (!text.empty()) {
         const Character character = first_of(text);

@@ -323,12 +323,12 @@ private:
 
     Command& program_;
     Words typed_;
-    std::size_t next_ = 0;      // of these, to be sorted
+    std::size_t next_ = 0;      // index of the next typed word to sort
     Command* chosen_ = nullptr; // nullptr: the program itself
     std::map<const Option*, Words> found_;
-    Words unknown_;              // options that there are none of
-    Words rest_;                 // that nothing takes
-    bool is_rest_first_ = false; // before any unknown option
+    Words unknown_;              // options that do not exist
+    Words rest_;                 // arguments that nothing takes
+    bool is_rest_first_ = false; // rest_ began before any unknown option
 };
 
 Command::Command(std::string name, std::string summary)

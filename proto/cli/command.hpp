@@ -90,7 +90,7 @@ private:
     bool is_chosen_ = false;
     const Command* parent_ = nullptr;
     std::vector<std::string> aliases_;
-    std::list<Option> options_; // addresses stay
+    std::list<Option> options_; // a list, because addresses must stay valid
     std::list<Command> commands_;
 };
 

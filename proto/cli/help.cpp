@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t columns_without_terminal = 80;
 constexpr std::size_t columns_min = 40;
 constexpr std::size_t columns_max = 100; // longer lines are hard to read
-constexpr std::size_t names_width = 26;  // of the left column
+constexpr std::size_t names_width = 26;  // width of the left column
 
 /// Words one behind the other, on lines of at most `columns`. The first line goes on behind
 /// `column` characters that stand there already.
@@ -191,7 +191,7 @@ std::string shown_path(const Command& command)
 
 std::string usage(const Command& command)
 {
-    constexpr std::size_t shown_max = 2; // of the options that may be left out
+    constexpr std::size_t shown_max = 2; // more optional ones appear as "[OPTIONS]"
     std::string text = shown_path(command);
     std::string optional;
     std::size_t optional_count = 0;

@@ -43,7 +43,7 @@ template <typename T, base::FormatOf<T> Format>
     T value{};
     format.read(*node, value, reading);
     if (reading.is_good()) return value;
-    return base::fail(reading.complaint()->substr(2)); // behind the empty name and its colon
+    return base::fail(reading.complaint()->substr(2)); // skips the empty name and its colon
 }
 
 /// Puts into `target` what the text says by a format.
@@ -74,16 +74,16 @@ template <typename Target>
 
 /// An option, a flag, or a positional argument of a command.
 struct Option {
-    std::string names; // "-s,--socket"; of a positional its name in usage lines: "PROFILE"
-    std::string value; // what follows it: "TIME"; of a flag ""
+    std::string names; // "-s,--socket"; for a positional its name in usage lines: "PROFILE"
+    std::string value; // name of its value: "TIME"; "" for a flag
     std::string help;
     Take take;
-    std::string group = "Options"; // its heading in --help
-    std::string example{};         // of a required option: a value that could be given
+    std::string group = "Options"; // heading in --help
+    std::string example{};         // for a required option: a value that could be given
     bool is_repeated = false;
-    bool is_instead = false; // something is printed instead of running: nothing else is required
-    bool is_hidden = false;  // left out of --help, which says in its group's heading how it is made
-    bool is_given = false;   // after parse()
+    bool is_instead = false; // prints something instead of running: nothing else is required
+    bool is_hidden = false;  // left out of --help, whose heading for the group says how it is made
+    bool is_given = false;   // valid after parse()
 
     Option& required(std::string value_to_show)
     {
@@ -114,7 +114,7 @@ struct Option {
     [[nodiscard]] bool is_positional() const { return !names.starts_with('-'); }
     [[nodiscard]] bool is_flag() const { return value.empty() && !is_positional(); }
     [[nodiscard]] bool is_required() const { return !example.empty(); }
-    /// The long one: "--socket".
+    /// The long name: "--socket".
     [[nodiscard]] std::string name() const { return names.substr(names.rfind(',') + 1); }
 };
 

@@ -14,9 +14,9 @@ namespace hapnet::cli {
 
 /// A kind of document that a program prints or writes, and its JSON Schema.
 struct DocumentSchema {
-    std::string_view name;           // as `schema NAME` takes it
-    std::string_view written;        // the schema's text, where it is not made
-    std::string (*make)() = nullptr; // of a described struct (proto/output/schema.hpp)
+    std::string_view name;           // name that `schema NAME` takes
+    std::string_view written;        // text of the schema if `make` is nullptr
+    std::string (*make)() = nullptr; // makes it from a struct (proto/output/schema.hpp)
 
     [[nodiscard]] std::string text() const
     {
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] std::string text() const;
 
 private:
-    std::vector<DocumentSchema> documents_; // by their names
+    std::vector<DocumentSchema> documents_; // in the order of their names
     Command* command_;
     std::optional<std::size_t> chosen_;
     bool lists_ = false;

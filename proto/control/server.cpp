@@ -61,7 +61,7 @@ void Server::serve(const Subject& subject, base::TimePoint now)
             want(*client, place);
         }
     }
-    if (is_somebody_new) admit(); // last: whoever has hung up has left a place by now
+    if (is_somebody_new) admit(); // last, as clients that hung up have freed their places by now
 }
 
 void Server::attend(const net::Ready& ready)

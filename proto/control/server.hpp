@@ -28,7 +28,7 @@ public:
     /// Limits of the work that clients cause.
     struct Limits {
         std::size_t line_bytes = Conversation::line_bytes_max;
-        int answers = 1; // in one serve()
+        int answers = 1; // largest number in one serve()
     };
 
     /// Throws std::system_error when the socket cannot be made.
@@ -53,7 +53,7 @@ private:
 
     void attend(const net::Ready& ready);
     void admit();
-    /// Reads what it has sent, as far as there is room for it.
+    /// Reads what the client has sent, as far as there is room for it.
     static net::Transfer::State take(Client& client);
     void answer_one(const Subject& subject, base::TimePoint now);
     static void send(Client& client, base::TimePoint now);
@@ -64,9 +64,9 @@ private:
     Limits limits_;
     net::WaitSet wait_set_;
     std::array<std::optional<Client>, clients_max> clients_;
-    std::deque<Conversation> departed_; // their clients are gone, what they have asked is not done
-    std::size_t turn_ = 0;              // whose request is looked at first
-    bool has_more_ = false;             // somebody's request waits already
+    std::deque<Conversation> departed_; // clients are gone, their requests are not done yet
+    std::size_t turn_ = 0;              // place of the client whose turn is next
+    bool has_more_ = false;             // a request may be waiting already
 };
 
 } // namespace hapnet::control

@@ -43,7 +43,7 @@ public:
     /// True if a step can be done now.
     [[nodiscard]] bool is_due(base::TimePoint now,
                               std::optional<base::TimePoint> next_departure) const;
-    /// Does it.
+    /// Does one step.
     void take(base::TimePoint now);
     /// No more steps are done; run() throws from now on.
     void close();
@@ -52,8 +52,8 @@ private:
     net::WakeEvent ordered_;
     std::atomic<const Step*> work_{nullptr};
     std::atomic<bool> is_closed_{false};
-    bool is_done_ = false;        // the work that was there before work_ became null
-    base::TimePoint last_step_{}; // the loop's
+    bool is_done_ = false;        // work_ became null at the end of the work, not by close()
+    base::TimePoint last_step_{}; // time of the last step
 };
 
 } // namespace hapnet::control

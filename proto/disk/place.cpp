@@ -106,7 +106,7 @@ Outcome<Place> Place::find(std::string path, LastLink last_link)
     for (int links = 0; folder.is_open();) {
         const std::string name = take_name(path);
         const bool is_last = path.empty();
-        if (name.empty()) return refused(EISDIR); // a link to /
+        if (name.empty()) return refused(EISDIR); // the link leads to /
         struct stat found {};
         const bool is_there =
             fstatat(folder.number(), name.c_str(), &found, AT_SYMLINK_NOFOLLOW) == 0;

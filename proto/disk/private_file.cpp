@@ -49,7 +49,7 @@ AclEntry entry_in(std::span<const unsigned char> bytes)
 /// True if the list gives anything to another user or to a group. It ends with a whole entry.
 bool gives_to_others(std::span<const unsigned char> entries)
 {
-    std::uint32_t mask = 7; // limits all but the owner and `other`
+    std::uint32_t mask = 7; // limits all entries but those of the owner and `other`
     for (auto rest = entries; !rest.empty(); rest = rest.subspan(entry_bytes)) {
         const AclEntry entry = entry_in(rest.first(entry_bytes));
         if (entry.tag == mask_tag) mask = entry.permissions;

@@ -16,7 +16,7 @@ namespace hapnet::disk {
 struct PrivateKind {
     enum class Links : std::uint8_t { refused, followed };
 
-    std::string_view name; // "key file"
+    std::string_view name; // such as "key file"
     std::size_t bytes_max = 0;
     Links links = Links::refused;
 };

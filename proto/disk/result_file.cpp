@@ -91,7 +91,7 @@ ResultFile::ResultFile(std::string path, std::string_view option, unsigned mode)
     if (!created) cannot_write(created.error(), path_, option);
     file_ = *std::move(created);
     temporary_ = name;
-    flock(file_.number(), LOCK_EX | LOCK_NB); // says that it is being written, also to containers
+    flock(file_.number(), LOCK_EX | LOCK_NB); // marks the file as in use, also for containers
 }
 
 ResultFile::~ResultFile()

@@ -49,7 +49,7 @@ private:
     void move();
 
     std::string path_;
-    std::optional<Place> place_; // always there once it is constructed
+    std::optional<Place> place_; // always set after construction
     std::string temporary_;      // a name in the folder of the place; empty: written in place
     off_t length_ = 0;
     Descriptor file_;

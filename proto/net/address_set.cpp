@@ -108,7 +108,7 @@ AddressSet::Bytes AddressSet::bytes_of(const Endpoint& endpoint)
 base::Result<void> AddressSet::add(const AddressPattern& pattern, int family)
 {
     const bool is_v4_text = pattern.host.find(':') == std::string::npos && is_numeric(pattern.host);
-    const int looked_up_in = is_v4_text ? AF_INET : family; // a v6 socket hears v4 as mapped
+    const int looked_up_in = is_v4_text ? AF_INET : family; // IPv6 sockets receive IPv4 as mapped
     const Endpoint host = resolve({pattern.host, 0}, looked_up_in);
     unsigned int bits = bits_of_v6;
     if (pattern.prefix) {

@@ -21,7 +21,7 @@ namespace hapnet::net {
 /// - "10.0.0.0/8", "fd00::/8": any port of each host of this network
 struct AddressPattern {
     std::string host;
-    std::optional<std::uint16_t> port;  // nullopt: any
+    std::optional<std::uint16_t> port;  // nullopt: any port
     std::optional<unsigned int> prefix; // bits that are compared; nullopt: all of them
 };
 [[nodiscard]] base::Result<AddressPattern> parse_address_pattern(std::string_view text);
@@ -45,10 +45,10 @@ public:
     [[nodiscard]] bool is_loopback() const;
 
 private:
-    using Bytes = std::array<std::uint8_t, 16>; // as IPv6
+    using Bytes = std::array<std::uint8_t, 16>; // an address as IPv6
     struct Member {
         Bytes address{};
-        unsigned int bits = 0; // of them
+        unsigned int bits = 0; // number of bits that are compared
         std::optional<std::uint16_t> port;
     };
     static Bytes bytes_of(const Endpoint& endpoint);

@@ -23,7 +23,7 @@ public:
     [[nodiscard]] int descriptor() const { return socket_; }
 
     struct News {
-        Endpoint local; // the first of the sockets that have that address
+        Endpoint local; // endpoint of the first socket that has the address
         bool is_lost = false;
     };
     /// Returns the changes since the last call. Never blocks.

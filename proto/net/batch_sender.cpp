@@ -13,7 +13,7 @@ namespace hapnet::net {
 
 namespace {
 
-constexpr std::size_t payload_bytes_max = 65'507; // of UDP over IPv4, cut or not
+constexpr std::size_t payload_bytes_max = 65'507; // largest UDP payload over IPv4, segmented or not
 
 SendOutcome outcome_of(int error)
 {
@@ -120,7 +120,7 @@ BatchSender::send(int descriptor, const Endpoint& to,
     base::ensure(datagrams.size() <= batch_max);
     base::ensure(marks.empty() || marks.size() == datagrams.size());
     const auto is_usual = [this](base::IpMarks one) { return one == usual_; };
-    if (std::ranges::all_of(marks, is_usual)) marks = {}; // what costs least
+    if (std::ranges::all_of(marks, is_usual)) marks = {}; // without control data, which costs least
     if (datagrams.size() == 1 && marks.empty()) {
         outcomes_[0] = send_one(descriptor, to, datagrams[0], answers_);
         return {outcomes_.data(), 1};
@@ -191,7 +191,7 @@ void BatchSender::write_message(std::size_t index, const Train& train, const End
     if (train.count == 1 && !marks) return;
     ControlWriter control{controls_[index].bytes};
     if (marks) put_marks(control, *marks, goes_as_v4(to));
-    if (train.count > 1) { // the last, so that it can be left away
+    if (train.count > 1) { // last, so that it can be left out
         control.put(SOL_UDP, UDP_SEGMENT,
                     static_cast<std::uint16_t>(vectors_[train.first].iov_len));
     }

@@ -118,7 +118,7 @@ std::optional<int> ChildCommand::exit_code()
     if (exit_code_ || pid_ < 0) return exit_code_;
     int code = 0;
     const auto count = read(ended_, &code, sizeof code);
-    if (count < 0) return std::nullopt; // nothing yet
+    if (count < 0) return std::nullopt; // the command still runs
     // Without a code the init was killed, and the command with it.
     exit_code_ = count == static_cast<ssize_t>(sizeof code) ? code : 128 + SIGKILL;
     give_terminal_back();

@@ -25,11 +25,11 @@ public:
         /// Runs the command in its own network namespace and, if the system permits it, in its own
         /// PID namespace with a matching /proc.
         bool has_own_network = false;
-        bool has_own_group = false;             // a process group, and /dev/null as its stdin
-        int output = -1;                        // its stdout and stderr; -1: those of this process
-        std::vector<std::string> environment{}; // "NAME=value", besides the environment of this one
-        std::string hosts{};                    // lines that it reads after those of /etc/hosts
-        std::string name_servers{};             // the text of its /etc/resolv.conf; "": as it is
+        bool has_own_group = false;             // own process group, and /dev/null as stdin
+        int output = -1;                        // stdout and stderr; -1: those of this process
+        std::vector<std::string> environment{}; // "NAME=value", besides those of this process
+        std::string hosts{};                    // lines that it sees after those of /etc/hosts
+        std::string name_servers{};             // text of its /etc/resolv.conf; "": unchanged
         /// Runs in the command's network when prepare() is called, before the command runs. Throws
         /// std::system_error.
         std::function<void()> prepare{};
@@ -66,9 +66,9 @@ private:
     void give_terminal_back() const;
 
     pid_t pid_ = -1;
-    int init_ = -1;     // a socket: orders to the init, and a report of each step
-    int ended_ = -1;    // a pipe from the init: the exit code of the command
-    int terminal_ = -1; // whose keys went to this process and the command when that started
+    int init_ = -1;     // socket: orders to the init, and its report of each step
+    int ended_ = -1;    // pipe from the init: the exit code of the command
+    int terminal_ = -1; // terminal of this process group when the command started; -1: none
     bool has_own_processes_ = false;
     std::optional<int> exit_code_;
 };

@@ -34,7 +34,7 @@ namespace hapnet::net {
 
 namespace {
 
-constexpr const char* init_name = "hapnet-init"; // as ps shows it
+constexpr const char* init_name = "hapnet-init"; // name in the output of ps
 
 std::string text_of_system_file(const std::string& path)
 {
@@ -142,7 +142,7 @@ void kill_descendants()
         do {
             reaped = waitpid(-1, nullptr, WNOHANG);
         } while (reaped > 0);
-        if (reaped < 0) return; // none is left
+        if (reaped < 0) return; // no child is left
         poll(nullptr, 0, pause_ms);
     }
 }
@@ -159,7 +159,7 @@ public:
         sigset_t all;
         sigfillset(&all);
         sigprocmask(SIG_SETMASK, &all, nullptr);
-        std::signal(SIGCHLD, SIG_DFL); // ignored, it would leave no exit codes
+        std::signal(SIGCHLD, SIG_DFL); // if it were ignored, there would be no exit codes
         prctl(PR_SET_NAME, init_name);
         if (is_first_) {
             // Works also while this process is stopped. A subreaper must live on, to kill the
@@ -255,12 +255,13 @@ private:
         sigemptyset(&child);
         sigaddset(&child, SIGCHLD);
         child_ended_ = signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK);
-        std::array<int, 2> failure{-1, -1}; // closed by exec(), or told an errno
+        std::array<int, 2> failure{-1, -1}; // closed by exec(), or receives an errno
         if (child_ended_ < 0 || pipe2(failure.data(), O_CLOEXEC) != 0) deny_network(errno, "pipe");
         command_ = fork();
         if (command_ < 0) deny_network(errno, "fork");
         if (command_ == 0) become_command(failure[1]);
-        if (setup_.has_own_group) setpgid(command_, command_); // it does so, too: who is first?
+        // The child does so, too: either may come first.
+        if (setup_.has_own_group) setpgid(command_, command_);
         close(failure[1]);
         int error = 0;
         const bool has_failed = read(failure[0], &error, sizeof error) == sizeof error;
@@ -277,7 +278,7 @@ private:
             const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
             dup2(nothing, STDIN_FILENO);
         }
-        if (!is_first_) prctl(PR_SET_PDEATHSIG, SIGKILL); // should the subreaper be killed
+        if (!is_first_) prctl(PR_SET_PDEATHSIG, SIGKILL); // in case the subreaper is killed
         reset_signals();
         if (setup_.output >= 0) {
             dup2(setup_.output, STDOUT_FILENO);
@@ -327,7 +328,7 @@ private:
     [[noreturn]] void end() const
     {
         if (!is_first_) kill_descendants();
-        _exit(0); // of a PID namespace the kernel kills the rest
+        _exit(0); // the kernel kills the rest of a PID namespace
     }
 
     const ChildCommand::Setup& setup_;

@@ -13,7 +13,7 @@ namespace hapnet::net {
 struct InitOrder {
     enum class Kind : std::uint8_t {
         prepare, // answered by a report
-        go,      // likewise, once the command runs
+        go,      // answered by a report once the command runs
         signal,  // the number goes to the command
         end      // kill all that the command has started, and end
     };
@@ -25,18 +25,18 @@ struct InitOrder {
 struct InitReport {
     enum class Kind : std::uint8_t {
         done,
-        refused, // no PID namespace, or no /proc for it
+        refused, // the system permits no PID namespace, or no /proc for it
         failed
     };
     Kind kind = Kind::done;
     int error = 0;
-    std::array<char, 512> what{}; // a text that ends with zero
+    std::array<char, 512> what{}; // text of the error, with a terminating zero
 };
 
 /// Descriptors that the init of a command shares with the program that started it.
 struct InitEnds {
-    int orders = -1; // a socket of messages
-    int ended = -1;  // takes the exit code of the command, an int
+    int orders = -1; // socket for InitOrder and InitReport messages
+    int ended = -1;  // pipe for the exit code of the command, an int
     int parent = -1; // readable once the program has ended (a pidfd)
 };
 

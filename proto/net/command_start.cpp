@@ -76,7 +76,7 @@ bool CommandStart::is_done() const
 
 void CommandStart::run() noexcept
 {
-    leave_real_time(); // the scheduling of the relay is inherited
+    leave_real_time(); // the thread inherits the scheduling of the relay
     try {
         for (const Before& one : before_) one.command.go();
         if (awaits_last()) last_.go();

@@ -53,13 +53,13 @@ private:
 
     ChildCommand& last_;
     std::vector<Before> before_;
-    WakeEvent told_; // to hurry, or that it is over
+    WakeEvent told_; // signals hurry() or the end
     WakeEvent done_;
     std::atomic<bool> is_hurried_{false};
     std::atomic<bool> is_over_{false};
     std::atomic<bool> is_done_{false};
     std::exception_ptr failure_; // written before is_done_
-    std::thread thread_;         // last: it uses the others
+    std::thread thread_;         // last member: it uses the others
 };
 
 } // namespace hapnet::net

@@ -44,7 +44,7 @@ extern "C" void hapnet_on_crash(int number)
         }
     }
     CrashSignal::hold_to_the_end();
-    raise(number); // comes when this returns, and to whom it would have come
+    raise(number); // delivered to the former action once this returns
 }
 
 int make_counter()
@@ -58,7 +58,7 @@ int make_counter()
 
 CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
 {
-    base::ensure(handler_state.dying.load() < 0); // one at a time
+    base::ensure(handler_state.dying.load() < 0); // only one CrashSignal at a time
     handler_state.dying = dying_;
     handler_state.in_order = in_order_;
     handler_state.has_come = false;

@@ -86,7 +86,7 @@ std::string_view cure_of(const std::error_code& error)
     if (error.category() == errors_of(AddressUse::bind)) return cure_of_binding(error.value());
     if (error.category() == errors_of(AddressUse::reach)) return cure_of_reaching(error.value());
     if (error.category() != std::generic_category() && error.category() != std::system_category()) {
-        return ""; // its message names the cure
+        return ""; // the message of the error names the cure
     }
     return cure_of_place(error.value());
 }

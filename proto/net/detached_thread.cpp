@@ -33,7 +33,7 @@ void start_detached(std::function<void()> work)
     const int error = pthread_create(&thread, &attributes, run_detached, owned.get());
     pthread_attr_destroy(&attributes);
     if (error != 0) throw std::system_error{error, std::generic_category(), "pthread_create"};
-    std::ignore = owned.release(); // the thread's now
+    std::ignore = owned.release(); // the thread owns it now
 }
 
 } // namespace hapnet::net

@@ -37,7 +37,7 @@ const std::error_category& name_lookup()
     return category;
 }
 
-constexpr std::size_t host_bytes_max = 16; // of an IPv6 address
+constexpr std::size_t host_bytes_max = 16; // length of an IPv6 address
 static_assert(std::tuple_size_v<Endpoint::Packed> == host_bytes_max + sizeof(in_port_t));
 
 template <typename SocketAddress>

@@ -68,7 +68,7 @@ bool ErrorQueue::drain(int descriptor)
         has_found = has_found || is_answer;
         if (is_port_unreachable(*report)) ++unreachable_;
     }
-    is_suspected_ = true; // there may be more
+    is_suspected_ = true; // there may be more answers
     return has_found;
 }
 

@@ -63,7 +63,7 @@ void say_last(std::string_view program, std::string_view text)
 void on_exit_called()
 {
     const ExitGuard* const guard = guard_of_exit.exchange(nullptr);
-    if (guard == nullptr) return; // the program has come to its end
+    if (guard == nullptr) return; // a regular end of the program
     CrashSignal::hold_to_the_end();
     const auto file = caller_of_exit();
     say_last(

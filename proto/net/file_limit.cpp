@@ -13,7 +13,7 @@ void survive_file_limit()
     // starts.
     if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
     struct sigaction nothing {};
-    nothing.sa_handler = [](int) {}; // unlike SIG_IGN it ends with exec()
+    nothing.sa_handler = [](int) {}; // unlike SIG_IGN, a handler ends with exec()
     sigemptyset(&nothing.sa_mask);
     nothing.sa_flags = SA_RESTART;
     sigaction(SIGXFSZ, &nothing, nullptr);

@@ -67,7 +67,7 @@ public:
         append(head);
         append(value);
     }
-    void attribute(std::uint16_t type, const std::string& text) // with its zero
+    void attribute(std::uint16_t type, const std::string& text) // with a terminating zero
     {
         attribute(type, std::as_bytes(std::span{text.c_str(), text.size() + 1}));
     }

@@ -40,7 +40,7 @@ public:
 private:
     std::string folder_;
     int files_ = 0;
-    std::mutex lock_; // of what follows
+    std::mutex lock_; // guards the members below
     std::optional<Order> waiting_;
     std::optional<std::string> trouble_;
 };

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t frame_bytes_max = 65'536 + ETH_HLEN + 4; // 4: a VLAN tag
 constexpr std::size_t tag_bytes = 4;
-constexpr std::size_t addresses_bytes = 12; // a VLAN tag stands behind them
+constexpr std::size_t addresses_bytes = 12; // two Ethernet addresses; a VLAN tag follows them
 
 void set_packet_option(int descriptor, int level, int name, int value)
 {

@@ -17,7 +17,7 @@ namespace hapnet::net {
 struct ReceivedFrame {
     std::span<std::byte> bytes;  // valid until the next receive()
     base::TimePoint at;          // the kernel's receive stamp
-    bool lacks_checksum = false; // the sender's kernel has left it to a device that there is not
+    bool lacks_checksum = false; // the sender's kernel left it to hardware that does not exist
 };
 
 /// All frames that arrive at a network interface, and a way to send frames from it: AF_PACKET.

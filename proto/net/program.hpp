@@ -24,9 +24,9 @@
 namespace hapnet::net {
 
 /// Exit codes, the same in all programs.
-inline constexpr int exit_failed = 1;      // it ran, and the run failed
+inline constexpr int exit_failed = 1;      // the run failed
 inline constexpr int exit_usage = 2;       // bad usage or bad input
-inline constexpr int exit_environment = 3; // the system refused
+inline constexpr int exit_environment = 3; // the system refused a request
 
 /// A text to print on stdout instead of running: --help, --version.
 struct Answer {
@@ -52,7 +52,7 @@ inline void tell(const std::string& text)
     std::ignore = std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// Writes one such line: "hapnet-peer: ...".
+/// Writes a line with the name of the program to stderr: "hapnet-peer: ...".
 inline void say(std::string_view program, std::string_view text)
 {
     tell(fmt::format("{}: {}\n", program, base::visible_lines(text)));

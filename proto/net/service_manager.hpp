@@ -35,7 +35,7 @@ public:
 private:
     void tell(std::string_view message) const;
 
-    int socket_ = -1; // -1: nobody is told
+    int socket_ = -1; // -1: no manager
     sockaddr_un manager_{};
     socklen_t manager_length_ = 0;
     base::Duration every_{};

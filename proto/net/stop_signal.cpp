@@ -72,7 +72,7 @@ int hold_lifeline()
     int own =
         open(fmt::format("/proc/self/fd/{}", given).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (own < 0) own = fcntl(given, F_DUPFD_CLOEXEC, 0);
-    if (own < 0) return -1; // no descriptor at all
+    if (own < 0) return -1; // neither way gave a descriptor
     close(given);
     fcntl(own, F_SETOWN, getpid());
     fcntl(own, F_SETSIG, SIGTERM);
@@ -139,15 +139,15 @@ struct StopSignal::State {
     int lifeline = -1;
     std::string lifeline_folder; // "": none
     int signals;
-    int wake = -1; // readable once a stop was asked for, whoever learnt of it first
+    int wake = -1; // readable once a stop was requested in any way
     [[nodiscard]] bool is_requested() const
     {
         return requested_at.load(std::memory_order_acquire) != 0;
     }
 
-    std::atomic<base::Duration::rep> requested_at{0}; // on the timeline; 0: never
+    std::atomic<base::Duration::rep> requested_at{0}; // time on the timeline; 0: never
     std::atomic<bool> reload{false};
-    std::atomic<int> number{SIGTERM}; // before the request that it belongs to
+    std::atomic<int> number{SIGTERM}; // signal number; stored before requested_at
     std::atomic<bool> is_of_terminal{false};
 };
 

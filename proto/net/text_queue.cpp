@@ -29,7 +29,7 @@ struct TextQueue::State {
             texts.pop_front();
             is_writing = true;
             lock.unlock();
-            const int failure = write_all(text); // may take for ever
+            const int failure = write_all(text); // may block without end
             lock.lock();
             is_writing = false;
             waiting_bytes -= text.size();
@@ -49,7 +49,7 @@ struct TextQueue::State {
             const auto count = ::write(descriptor, text.data(), text.size());
             if (count > 0) {
                 text.remove_prefix(static_cast<std::size_t>(count));
-            } else if (count < 0 && errno == EAGAIN) { // somebody's O_NONBLOCK
+            } else if (count < 0 && errno == EAGAIN) { // another process set O_NONBLOCK
                 pollfd polled{descriptor, POLLOUT, 0};
                 poll(&polled, 1, -1);
             } else if (count < 0 && errno != EINTR) {
@@ -63,7 +63,7 @@ struct TextQueue::State {
     mutable std::mutex mutex;
     std::condition_variable has_changed;
     std::deque<std::string> texts;
-    std::size_t waiting_bytes = 0; // of the text that is being written, too
+    std::size_t waiting_bytes = 0; // includes the text that is being written
     std::uint64_t written = 0;
     std::uint64_t lost = 0;
     int error = 0;

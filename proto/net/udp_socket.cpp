@@ -109,7 +109,7 @@ Label label_of(const msghdr& header)
 /// IPv6 that routers could change later is made fixed by that.
 base::IpMarks ask_for_marks(int descriptor, int family)
 {
-    set_option(descriptor, IPPROTO_IP, IP_RECVTOS, 1); // also of a socket of IPv6 that hears both
+    set_option(descriptor, IPPROTO_IP, IP_RECVTOS, 1); // also on an IPv6 socket that receives IPv4
     set_option(descriptor, IPPROTO_IP, IP_RECVTTL, 1);
     int hops = 0;
     socklen_t length = sizeof hops;
@@ -191,10 +191,10 @@ struct UdpSocket::Inbox {
         std::array<std::byte, control_bytes> bytes;
     };
     std::array<Control, batch_max> controls{};
-    std::vector<Received> received; // of the last batch
+    std::vector<Received> received; // datagrams of the last batch
     std::size_t messages_next = batch_max;
-    ErrorQueue answers;                // by ICMP
-    std::uint32_t overflowed_last = 0; // as the kernel says it: 32 bits, wrapping
+    ErrorQueue answers;                // answers by ICMP
+    std::uint32_t overflowed_last = 0; // last count of the kernel: 32 bits, wraps around
     std::uint64_t overflowed = 0;
 };
 
@@ -253,7 +253,7 @@ std::span<const Received> UdpSocket::receive()
     Inbox& inbox = *inbox_;
     const int count = recvmmsg(descriptor_, inbox.headers.data(),
                                static_cast<unsigned int>(inbox.messages_next), 0, nullptr);
-    if (count <= 0) { // nothing there, or the answer to something that was sent
+    if (count <= 0) { // nothing there, or an answer to an earlier datagram
         const bool is_answer = errno != EAGAIN || inbox.answers.is_suspected();
         if (is_answer) inbox.answers.drain(descriptor_);
         return {};

@@ -19,15 +19,15 @@ struct Received {
     std::span<const std::byte> bytes; // valid until the next receive()
     Endpoint from;
     base::TimePoint at;    // the kernel's receive stamp
-    base::IpMarks marks{}; // of Load::bulk; with Load::stream they are not asked for
+    base::IpMarks marks{}; // with Load::bulk only; unknown with Load::stream
 };
 
 /// The expected load of a socket.
 enum class Load : std::uint8_t {
     stream, // one sender at a few thousand datagrams a second
-    bulk,   // as many as it can take: the kernel may hand over neighbours of one size together
-            // (UDP_GRO), and a privileged program gets the receive buffer that it asks for. Says
-            // the marks of what arrives
+    bulk,   // as many datagrams as it can take: the kernel may hand over neighbours of one size
+            // together (UDP_GRO), and a privileged program gets the receive buffer that it asks
+            // for. Each datagram has its marks
 };
 
 /// A bound, non-blocking UDP socket with kernel receive stamps. Sends and receives; decides

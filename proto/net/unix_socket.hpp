@@ -15,13 +15,13 @@ namespace hapnet::net {
 struct Transfer {
     enum class State : std::uint8_t {
         moved,
-        later, // nothing now
+        later, // nothing can be moved now
         ended, // the other side sends no more
         gone,  // the connection is broken
     };
 
     State state = State::later;
-    std::size_t bytes = 0; // when moved
+    std::size_t bytes = 0; // number of bytes, if moved
 };
 
 /// One end of a connection over a Unix socket. Moves bytes; decides nothing.
@@ -68,8 +68,8 @@ public:
 
 private:
     std::string path_;
-    UnixStream socket_;      // for its descriptor
-    std::uint64_t file_ = 0; // the socket's own number in its file system
+    UnixStream socket_;      // owns the listening descriptor
+    std::uint64_t file_ = 0; // inode number of the socket
 };
 
 } // namespace hapnet::net

@@ -11,10 +11,10 @@ namespace hapnet::net {
 
 /// The operations that a descriptor is ready for.
 struct Ready {
-    std::uint64_t key = 0; // as it was added
+    std::uint64_t key = 0; // key that the descriptor was added with
     bool is_readable = false;
     bool is_writable = false;
-    bool is_gone = false; // the other side has closed it, both ways
+    bool is_gone = false; // the other side has closed the connection both ways
 };
 
 /// Many descriptors as one: its own descriptor is readable while any of them is ready for what is

@@ -61,7 +61,8 @@ struct WebSocketClient::State {
         if (done && !error) return error;
         close();
         if (!done) {
-            run_until(done, std::chrono::seconds{1}); // it refers to what is above
+            // The operation uses local variables of this function until it has ended.
+            run_until(done, std::chrono::seconds{1});
             error = beast::error::timeout;
         }
         return error;

@@ -90,19 +90,19 @@ private:
             schema["type"] = Json::array({schema.at("type"), "null"});
             return schema;
         }
-        if (schema.contains("type")) return schema; // it may be null already
+        if (schema.contains("type")) return schema; // a list, which contains null already
         return {{"anyOf", Json::array({std::move(schema), Json{{"type", "null"}}})}};
     }
 
     Json reference_to(const base::FieldTable& fields)
     {
         std::string name{fields.name};
-        std::ranges::replace(name, ' ', '_'); // it is part of an address
+        std::ranges::replace(name, ' ', '_'); // the name is part of an address
         base::ensure(!name.empty());
         const auto [known, is_new] = owners_.emplace(name, &fields);
-        base::ensure(known->second == &fields); // two structs of one name
+        base::ensure(known->second == &fields); // fails if two structs have one name
         if (is_new) {
-            all_[name]; // before what it refers to
+            all_[name]; // placed before the structs that it refers to
             all_[name] = object_of(fields);
         }
         return {{"$ref", "#/$defs/" + name}};

@@ -51,7 +51,7 @@ std::string told(const base::FieldTable& fields, const void* value)
                 }
                 return;
             }
-            if (kind.shape != Shape::whole) return; // it stands in tables alone
+            if (kind.shape != Shape::whole) return; // other shapes appear in tables only
             const auto count = count_in(kind, member);
             if (count > 0 || telling.is_told_always) add(text, count, *telling.words);
         });

@@ -23,7 +23,7 @@ template <base::Described T>
 
 /// A row of a table for people.
 struct ToldFigure {
-    std::string words; // "delay as drawn, mean (ms)"
+    std::string words; // such as "delay as drawn, mean (ms)"
     nlohmann::ordered_json value;
 };
 

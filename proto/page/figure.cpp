@@ -18,7 +18,7 @@ double short_value(double value)
 {
     if (value == 0.0) return 0.0;
     const double digits = 6.0 - std::floor(std::log10(std::abs(value)));
-    if (std::abs(digits) > 22.0) return value; // beyond it powers of ten are not exact
+    if (std::abs(digits) > 22.0) return value; // beyond 22, powers of ten are not exact
     const double scale = std::pow(10.0, std::abs(digits));
     return digits >= 0.0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
 }

@@ -34,7 +34,7 @@ struct Axis {
     std::string label;
     std::string unit{};
     Scale scale = Scale::linear;
-    Range range{}; // that it spans besides the values
+    Range range{}; // range that the axis spans besides the values
 };
 
 struct Point {
@@ -56,13 +56,13 @@ struct Crossing {
 
 /// A curve, in the order of x; values that are not finite are left out.
 struct Curve {
-    std::string name; // in the legend; empty: not there
+    std::string name; // name in the legend; empty: not in the legend
     std::string_view colour;
     std::vector<Point> points{};
     std::vector<Point> scatter{}; // dots beside the curve, which belong to it
     std::vector<BandPoint> band{};
     std::optional<Crossing> crossing{};
-    double width = 1.2; // pixels; 0: only dots
+    double width = 1.2; // line width, pixels; 0: only dots
     bool is_dashed = false;
     bool shows_points = false; // a dot at each point
 };
@@ -76,20 +76,20 @@ struct Level {
 struct Curves {
     std::vector<Curve> curves;
     std::vector<Level> levels{};
-    std::vector<double> moments{}; // of x, each a dashed line from top to bottom
+    std::vector<double> moments{}; // values of x, each a dashed vertical line
 };
 
 /// A bar from zero to a value that is not negative, which its text says in words.
 struct Bar {
-    std::string series; // those that stand at the same place in each group
+    std::string series; // name of the bars at the same place in each group
     double value = 0.0;
     std::string text;
     std::string_view colour;
-    bool is_outlined = false;        // for what others measured
-    bool is_open = false;            // the value is more than that: an arrow instead of an end
-    bool is_missed = false;          // its text is red
-    std::optional<Range> interval{}; // in which the value lies
-    std::string tip{};               // shown where a pointer rests
+    bool is_outlined = false;        // for values that others measured
+    bool is_open = false;            // the true value is larger: an arrow as the end
+    bool is_missed = false;          // the text is red
+    std::optional<Range> interval{}; // interval in which the value lies
+    std::string tip{};               // tooltip
 };
 
 struct BarGroup {
@@ -115,15 +115,15 @@ struct DotRow {
     std::optional<double> value{};
     std::optional<Range> interval{};
     std::optional<Range> accepted{}; // an infinite end is open
-    std::vector<double> single{};    // what the value is made of: small dots
+    std::vector<double> single{};    // single values, as small dots
     bool is_missed = false;
-    std::string tip{}; // shown where a pointer rests
+    std::string tip{}; // tooltip
 };
 using Dots = std::vector<DotRow>;
 
 struct HeatMap {
-    std::vector<std::string> columns; // what stands below each
-    std::vector<std::string> rows;    // and beside each, from the lowest up
+    std::vector<std::string> columns; // labels below the columns
+    std::vector<std::string> rows;    // labels beside the rows, from the lowest up
     std::vector<HeatCell> cells;
 };
 
@@ -141,7 +141,7 @@ struct Figure {
     std::variant<Curves, Bars, HeatMap, Dots> content;
     Size size{};
     Json caption = "";
-    std::vector<std::string> sources{}; // files with its numbers, as paths from the page
+    std::vector<std::string> sources{}; // files with the figure's numbers, as paths from the page
 };
 
 /// The text with a hyphen for each character that an id may not have.

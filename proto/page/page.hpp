@@ -14,8 +14,8 @@ namespace hapnet::page {
 /// A file of web/page, or of a library, that is compiled in.
 struct Asset {
     std::string_view name;   // "report/report.js", "three.module.min.js"
-    std::string_view bytes;  // empty: of a library
-    std::string_view packed; // by gzip; empty: of web/page
+    std::string_view bytes;  // content of a file of web/page; empty: a library
+    std::string_view packed; // gzip data of a library; empty: a file of web/page
 };
 
 /// The files that each page carries: the modules that draw it, and its style sheets. The build
@@ -28,7 +28,7 @@ struct Section {
     std::string title;
     Json blocks = Json::array();
     std::vector<Figure> figures{};
-    std::vector<std::string> sources{}; // of the figures to come that do not name their own
+    std::vector<std::string> sources{}; // used for figures that are added later without sources
 
     void add(Json block) { blocks.push_back(std::move(block)); }
     /// Adds a figure, and a block that shows it.
@@ -41,7 +41,7 @@ struct Page {
     std::string subject; // a word: what the page is about
     std::string title;
     std::string lead;
-    Json head = Json::array(); // blocks
+    Json head = Json::array(); // blocks above the sections
     std::vector<Section> sections{};
     std::string foot{};
 };

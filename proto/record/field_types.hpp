@@ -194,7 +194,7 @@ struct FieldType<double> {
 template <>
 struct FieldType<std::vector<std::byte>> {
     static constexpr std::string_view type = "u16 n, u8[n]", unit = "";
-    static constexpr std::size_t bytes = 2; // at least
+    static constexpr std::size_t bytes = 2; // smallest size: the length alone
     static void put(base::ByteWriter& out, const std::vector<std::byte>& value)
     {
         out.u16(static_cast<std::uint16_t>(value.size()));

@@ -20,7 +20,7 @@ enum class Phase : std::uint8_t {
     countdown, ///< T0 agreed, not yet come
     running,   ///< from T0 until the hands let go: what the metrics score
     hands_off, ///< the tail in which no hand touches and the copies must agree again
-    alone,     ///< the other side has gone; zero force until the own end
+    alone,     ///< the other side has gone; zero force until this side ends
     ended,
 };
 
@@ -63,7 +63,7 @@ struct TickRow {
     bool docked = false;
     bool calibrated = true;
     std::uint8_t buttons = 0;
-    std::uint8_t fault = 0; // device::Fault
+    std::uint8_t fault = 0; // value of device::Fault
     /// Presses of the primary button, counted.
     std::uint16_t presses = 0;
     /// Grows with every report from the device; its lowest bits.

@@ -45,7 +45,7 @@ Writer::Writer(std::string path, const nlohmann::json& config, const Layout& lay
     buffer_ = header_line(config, layout_) + '\n';
     ends_.push_back(buffer_.size());
     flush();
-    rows_ = 0; // the header was none
+    rows_ = 0; // the header does not count as a row
 }
 
 Writer::~Writer()
@@ -79,7 +79,7 @@ std::error_code Writer::try_flush() noexcept
     bytes_ += whole;
     buffer_.clear();
     ends_.clear();
-    if (whole < written.bytes) // a row that is cut off
+    if (whole < written.bytes) // removes a row that is cut off
         std::ignore = ftruncate(file_.number(), static_cast<off_t>(bytes_));
     return written.error;
 }

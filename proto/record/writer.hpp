@@ -43,10 +43,10 @@ private:
     std::string path_;
     Layout layout_;
     disk::Descriptor file_;
-    std::uint64_t bytes_ = 0; // of the header and the rows that the file has
+    std::uint64_t bytes_ = 0; // length of the header and the rows in the file
     std::uint64_t rows_ = 0;
     std::string buffer_;
-    std::vector<std::size_t> ends_; // of the rows in the buffer
+    std::vector<std::size_t> ends_; // ends of the rows in the buffer
 };
 
 } // namespace hapnet::record

@@ -166,11 +166,11 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
     if (opened.size == 0) return std::nullopt;
     last_opened_ = now;
     if (current_ && epoch == &*current_) confirm_at_.reset();
-    if (next_ && epoch == &*next_) { // the other side has it: use it, too
+    if (next_ && epoch == &*next_) { // the other side uses the next key: use it, too
         dates_.confirm(next_date_);
         use(std::move(*std::exchange(next_, std::nullopt)), now);
         epoch = &*current_;
-        answered_.reset(); // it has come
+        answered_.reset(); // the answer has arrived
     }
     // A state shows where the other side is now; until there is one under this key, other messages
     // do, as a peer that was started again elsewhere says hello first.
@@ -210,7 +210,7 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     const bool is_known =
         (responding_ && responding_->cause == cause) ||
         initiations_.find([&](const auto& one) { return one.cause == cause; }) != nullptr;
-    if (is_known || (initiating_ && is_lower())) { // the other side answers ours
+    if (is_known || (initiating_ && is_lower())) { // the other side answers this side's initiation
         ++counts_.unread;
         return;
     }
@@ -305,7 +305,7 @@ std::int64_t Association::date(Moment moment)
 void Association::begin(Moment moment)
 {
     if (!place_) return;
-    if (is_lower()) { // the other side answers ours
+    if (is_lower()) { // the other side answers this side's initiation
         counts_.unread += initiations_.size();
         initiations_.clear();
     }
@@ -377,7 +377,7 @@ void Association::use(Epoch epoch, base::TimePoint now)
         ++counts_.rekeys;
         previous_.emplace(std::move(*current_));
         previous_until_ = now + previous_lasts;
-    } else { // what the former run sent comes too late
+    } else { // messages of the former run come too late
         run_since_ = now;
     }
     current_.emplace(std::move(epoch));
@@ -453,13 +453,13 @@ void Association::answer(base::TimePoint now)
     send_answer(now);
     responding_.reset();
     if (!unconfirmed_since_) unconfirmed_since_ = now;
-    if (!waits_for_confirmation(now)) return; // what this side began goes on beside it
-    end_initiating();                         // what the other side began has come farther
+    if (!waits_for_confirmation(now)) return; // this side's own handshake goes on
+    end_initiating();                         // the other side's handshake is further
     confirm_at_.reset();
     unanswered_since_.reset();
 }
 
-/// Three of them are no more bytes than three times what asked for them.
+/// Three answers have at most three times as many bytes as the initiation.
 void Association::send_answer(base::TimePoint now)
 {
     answered_->repeats_left = response_repeats;

@@ -56,16 +56,16 @@ public:
     static constexpr base::Duration fresh_after = InitiationDates::unconfirmed_lasts;
     static constexpr base::Duration listen_for{std::chrono::seconds{1}};
     static constexpr int response_repeats = 2;
-    static constexpr std::size_t waiting_max = 8; // initiations, and responses
+    static constexpr std::size_t waiting_max = 8; // for initiations and for responses each
     /// While the other side is heard, another run of that side replaces it no more often than this.
     static constexpr base::Duration runs_change_every{std::chrono::seconds{5}};
 
     struct Config {
-        std::uint8_t own_id = 0, other_id = 0; // they differ
+        std::uint8_t own_id = 0, other_id = 0; // never equal
         std::array<std::byte, 8> circle{};     // names the circle; both sides' are the same
-        std::uint32_t run = 0;                 // of this program, not 0
-        std::optional<Place> place;            // where the other side is said to be
-        bool may_roam = true;                  // it may be found elsewhere
+        std::uint32_t run = 0;                 // number of this program's run, not 0
+        std::optional<Place> place;            // address of the other side, if given
+        bool may_roam = true;                  // the other side may change its address
         std::uint32_t (*session_of)(std::uint32_t low_run, std::uint32_t high_run) = nullptr;
     };
     /// `seed` is drawn at random, and used for nothing else.
@@ -119,7 +119,7 @@ public:
         std::uint64_t cookies = 0;
         std::uint64_t roamed = 0;
         std::uint64_t not_sealed = 0;
-        base::Duration last_handshake{}; // 0: this side has begun none that was finished
+        base::Duration last_handshake{}; // duration; 0: this side has begun none that was finished
 
         /// Adds the counts of another association, and keeps the longer of the two times.
         Counts& operator+=(const Counts& other);
@@ -146,13 +146,13 @@ private:
         std::uint32_t other_run;
         std::uint32_t session;
         base::TimePoint made;
-        std::uint32_t controls = 0;    // sealed
-        bool has_opened_state = false; // until then hellos tell where the other side is
+        std::uint32_t controls = 0;    // number of sealed control messages
+        bool has_opened_state = false; // false: hellos still show where the other side is
     };
     /// A handshake message with the right MAC, which waits to be read.
     struct WaitingInitiation {
         KeyIndex sender = 0;
-        Mac cause{}; // its first MAC
+        Mac cause{}; // first MAC of the initiation
         std::array<std::byte, initiation_noise_bytes> noise{};
         Place from{};
     };
@@ -170,11 +170,11 @@ private:
         KeyIndex own;
         NoiseKk noise;
         base::TimePoint began;
-        std::optional<HandshakeFrame> frame; // when it is written
+        std::optional<HandshakeFrame> frame; // the initiation, once it is written
         std::optional<base::TimePoint> last_sent;
         bool has_new_cookie = false;
         FairQueue<WaitingResponse, waiting_max> responses;
-        std::optional<KeyIndex> other; // while a response is read
+        std::optional<KeyIndex> other; // sender of the response that is being read
         Place answered_from{};
 
         /// True if step_initiation() has work to do.
@@ -186,7 +186,7 @@ private:
 
         KeyIndex own, other;
         NoiseKk noise;
-        Mac cause{}; // the initiation's first MAC
+        Mac cause{}; // first MAC of the initiation
         Place to{};
         bool is_writing = false;
         std::uint32_t other_run = 0;
@@ -244,21 +244,22 @@ private:
     // At most three epochs: the one in use, one that the other side has not confirmed yet, and one
     // that ends soon.
     std::optional<Epoch> current_, next_, previous_;
-    std::int64_t next_date_ = 0; // of the initiation that made the next one
+    std::int64_t next_date_ = 0; // date of the initiation that made next_
     base::TimePoint previous_until_;
     base::TimePoint last_opened_;
-    base::TimePoint run_since_; // the other side is in its present run
+    base::TimePoint run_since_; // start of the other side's present run
 
     std::optional<Initiating> initiating_;
     std::optional<base::TimePoint> unanswered_since_;
-    std::int64_t own_date_ = std::numeric_limits<std::int64_t>::min(); // of the last initiation
+    /// The date of this side's last initiation.
+    std::int64_t own_date_ = std::numeric_limits<std::int64_t>::min();
     base::TimePoint listens_until_;
-    std::optional<base::TimePoint> confirm_at_; // this side began, and is not heard under the key
+    std::optional<base::TimePoint> confirm_at_; // next confirmation; nullopt: none due
     FairQueue<WaitingInitiation, waiting_max> initiations_;
     std::optional<Responding> responding_;
-    bool is_turn_to_initiate_ = false; // when there is work for both
+    bool is_turn_to_initiate_ = false; // who continues if initiating and responding have work
     std::optional<Answer> answered_;
-    std::optional<base::TimePoint> unconfirmed_since_; // the first answer after the last handshake
+    std::optional<base::TimePoint> unconfirmed_since_; // first answer since the last handshake
     InitiationDates dates_;
 
     std::array<Outgoing, 4> outgoing_{};

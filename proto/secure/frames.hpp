@@ -64,7 +64,7 @@ inline constexpr std::size_t empty_bytes = 8;
 struct OpenedFrame {
     Opener::Outcome outcome = Opener::Outcome::forged;
     bool is_state = false;
-    std::size_t size = 0; // of the plain message, if it was opened; its session number is 0
+    std::size_t size = 0; // length of the plain message, if opened; its session number is 0
 };
 [[nodiscard]] OpenedFrame open_frame(std::span<std::byte> datagram, Opener& opener);
 

@@ -43,8 +43,8 @@ public:
 
 private:
     struct Taken {
-        std::uint32_t run = 0; // 0: none
-        std::int64_t date = 0; // the newest of that run
+        std::uint32_t run = 0; // 0: unused
+        std::int64_t date = 0; // newest date of that run
         base::TimePoint at;
     };
 

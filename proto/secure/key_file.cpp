@@ -91,7 +91,7 @@ KeyFile read_file(const Node& document, Reading& reading)
 {
     KeyFile file;
     const auto* entries = std::get_if<Node::Table>(&document.value);
-    base::ensure(entries != nullptr); // a document is one
+    base::ensure(entries != nullptr); // a document is a table
     TableReader table{*entries, document.place, reading};
     const Node* const name = table.require("name", "write name = \"lab\"");
     file.name = read_text(name, reading);
@@ -112,7 +112,7 @@ KeyFile read_file(const Node& document, Reading& reading)
 Secret read_shared(const Node& document, Reading& reading)
 {
     const auto* entries = std::get_if<Node::Table>(&document.value);
-    base::ensure(entries != nullptr); // a document is one
+    base::ensure(entries != nullptr); // a document is a table
     TableReader table{*entries, document.place, reading};
     Secret shared{read_key(table.require("psk", "write psk = \"BASE64\""), reading)};
     table.finish();
@@ -145,7 +145,7 @@ const KeyFile::Member* KeyFile::find(std::uint8_t peer) const
 StaticKeys KeyFile::keys_with(const Member& member) const
 {
     auto keys = StaticKeys::from(own.copy(), member.key, pre_shared.copy());
-    base::ensure(keys.has_value()); // the parser has tried it
+    base::ensure(keys.has_value()); // the parser has checked the keys
     return std::move(*keys);
 }
 

@@ -34,14 +34,14 @@ struct KeyFile {
     struct Member {
         std::uint8_t id = 0;
         PublicKey key{};
-        std::string endpoint; // empty: not said
+        std::string endpoint; // empty: not given
     };
 
     std::string name;
     std::uint8_t id = 1;
     Secret own;
     Secret pre_shared;
-    std::vector<Member> others; // by id
+    std::vector<Member> others; // in the order of their ids
 
     [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared.bytes()); }
     /// nullptr when no such peer is in the circle.

@@ -13,7 +13,7 @@ namespace hapnet::secure {
 namespace {
 
 constexpr std::string_view protocol_name = "Noise_KKpsk0_25519_ChaChaPoly_BLAKE2b";
-static_assert(protocol_name.size() <= hash_bytes); // so it is padded, not hashed
+static_assert(protocol_name.size() <= hash_bytes); // so the name is padded, not hashed
 
 Secret key_from(const SecretHash& output) { return Secret{output.bytes().first<key_bytes>()}; }
 
@@ -106,7 +106,7 @@ bool NoiseKk::multiplies(Token token) const
 {
     switch (token) {
     case Token::psk:
-    case Token::ss: return false; // known before
+    case Token::ss: return false; // no multiplication: these secrets are known before
     case Token::e: return writes_;
     case Token::es:
     case Token::ee:
@@ -150,7 +150,7 @@ void NoiseKk::mix_ephemeral()
         std::copy_n(buffer_.begin(), key_bytes, key.begin());
     }
     mix_hash(key);
-    mix_key(key); // where a pre-shared key is used it makes the first key unique
+    mix_key(key); // makes the first key unique if a pre-shared key is used
 }
 
 void NoiseKk::mix_shared(const Secret& own, const PublicKey& other)

@@ -84,7 +84,7 @@ public:
     /// The keys for what follows, after both messages.
     struct TransportKeys {
         Secret to_other, from_other;
-        Hash handshake{}; // the same on both sides, and on no others
+        Hash handshake{}; // hash of the handshake, equal on both sides only
     };
     [[nodiscard]] TransportKeys split();
 
@@ -102,7 +102,7 @@ private:
     struct Symmetric {
         SecretHash chaining_key;
         Hash hash{};
-        Secret key; // of the cipher
+        Secret key; // key of the cipher
         std::uint64_t number = 0;
 
         [[nodiscard]] Symmetric copy() const
@@ -128,9 +128,9 @@ private:
     PublicKey ephemeral_public_{};
     PublicKey other_ephemeral_{};
     Symmetric state_;
-    Symmetric before_; // the message that is under way
+    Symmetric before_; // state before the message that is under way
 
-    std::size_t message_ = 0; // 0, 1; 2: all done
+    std::size_t message_ = 0; // number of the message, 0 or 1; 2: all done
     std::size_t token_ = 0;
     bool writes_ = false;
     bool is_under_way_ = false;

@@ -104,7 +104,7 @@ Mac keyed_hash(Bytes key, Bytes first, Bytes second)
 SecretHash authenticate(Bytes key, Bytes first, Bytes second)
 {
     constexpr std::size_t block = 128;
-    base::ensure(key.size() <= block); // all of ours are
+    base::ensure(key.size() <= block); // all keys in use are that short
     SecretBytes<block> inner, outer;
     std::ranges::copy(key, inner.bytes().begin());
     std::ranges::copy(key, outer.bytes().begin());
@@ -193,7 +193,7 @@ std::string to_base64(Bytes bytes)
     constexpr int variant = sodium_base64_VARIANT_ORIGINAL;
     std::string text(sodium_base64_encoded_len(bytes.size(), variant), '\0');
     sodium_bin2base64(text.data(), text.size(), raw(bytes), bytes.size(), variant);
-    text.pop_back(); // the zero at its end
+    text.pop_back(); // the terminating zero
     return text;
 }
 

@@ -81,7 +81,7 @@ public:
     void end(std::span<std::byte> result);
 
 private:
-    alignas(64) std::array<std::byte, 384> state_; // libsodium's
+    alignas(64) std::array<std::byte, 384> state_; // state of libsodium's hash
     std::size_t size_;
 };
 

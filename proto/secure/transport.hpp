@@ -35,7 +35,7 @@ public:
 
 private:
     Secret key_;
-    std::array<std::uint64_t, kinds> next_{}; // the least number that may come
+    std::array<std::uint64_t, kinds> next_{}; // smallest number that may be sealed next
 };
 
 /// Opens what the Sealer of the other side sealed, each message once.
@@ -50,7 +50,7 @@ public:
     enum class Outcome : std::uint8_t {
         opened,
         opened_newest, // no message of its kind has a greater number
-        replayed,      // it has come already, or is too old to tell; not looked at
+        replayed,      // opened before, or too old to tell; was not opened now
         forged,        // not sealed with this key
     };
     /// Opens it in place. Only a genuine message moves the window.
@@ -59,7 +59,7 @@ public:
 
 private:
     Secret key_;
-    base::RecentNumbers<state_window> states_; // that were opened
+    base::RecentNumbers<state_window> states_; // numbers of the opened states
     base::RecentNumbers<control_window> controls_;
 };
 

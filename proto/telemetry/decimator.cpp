@@ -39,7 +39,7 @@ void Decimator::take(const record::BodyRow& body)
 void Decimator::hear(std::uint16_t from, base::TimePoint received_at,
                      std::span<const std::byte> message)
 {
-    if (from == 0) return; // it has not said who it is
+    if (from == 0) return; // the sender is not known yet
     const auto decoded = wire::decode(message);
     const auto* const state = decoded ? std::get_if<wire::State>(&*decoded) : nullptr;
     if (state == nullptr) return;

@@ -42,17 +42,17 @@ private:
     /// Data about another peer that its next frame does not contain.
     struct Other {
         std::uint32_t session = 0;
-        std::uint32_t highest = 0;           // number in that session; 0: none came
-        std::optional<base::TimePoint> sent; // the newest state, on the sender's clock
+        std::uint32_t highest = 0;           // highest number in that session; 0: none yet
+        std::optional<base::TimePoint> sent; // sending time of the newest state, sender's clock
     };
 
     [[nodiscard]] std::size_t place_of(std::uint16_t id);
     void begin_anew();
 
     Names names_;
-    Frame frame_; // that grows
+    Frame frame_; // the frame that is being filled
     bool has_tick_ = false;
-    std::vector<Other> others_; // as frame_.heard
+    std::vector<Other> others_; // in the order of frame_.heard
 };
 
 } // namespace hapnet::telemetry

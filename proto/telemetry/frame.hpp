@@ -90,11 +90,11 @@ constexpr auto fields_of(base::Tag<Range>)
 struct HeardFrame {
     std::uint16_t from = 0;
     std::uint64_t messages = 0;           // states that arrived
-    std::uint64_t lost = 0;               // gaps in their numbers
-    std::uint64_t late = 0;               // came after one with a higher number, or again
+    std::uint64_t lost = 0;               // gaps in the numbers of states
+    std::uint64_t late = 0;               // states that came after a higher number, or again
     Spread delay_ms;                      // sender's stamp to this kernel's stamp
-    std::optional<base::Duration> age;    // of the newest state, at the frame's time
-    std::optional<base::Duration> offset; // its clock minus this one
+    std::optional<base::Duration> age;    // age of the newest state at the frame's time
+    std::optional<base::Duration> offset; // the other peer's clock minus this one
     std::optional<base::Duration> offset_uncertainty;
 };
 
@@ -214,17 +214,17 @@ constexpr auto fields_of(base::Tag<TickFrame>)
 /// The newest state of a peer, and the extremes since the frame before.
 struct Frame {
     std::uint64_t number = 0;
-    std::optional<std::uint64_t> left_out; // frames that this one follows and that were not sent
+    std::optional<std::uint64_t> left_out; // frames before this one that were not sent
     std::uint16_t peer = 0;
     TickFrame newest;
     std::optional<record::SessionRow> session;
     Spread cube_x_m;
-    Spread force_n; // that the device was told
+    Spread force_n; // norm of the force that the device was told
     Spread late_us;
     std::uint64_t missed = 0;
     std::vector<BodyFrame> bodies;
     std::vector<HeardFrame> heard;
-    std::string_view governor;             // the name of its state
+    std::string_view governor;             // name of the governor's state
     std::optional<std::string_view> fault; // nullopt: none
 
     [[nodiscard]] std::optional<SessionFrame> session_now() const

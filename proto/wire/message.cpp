@@ -68,7 +68,7 @@ inline base::TimePoint take_time(ByteReader& in, bool& canonical)
     return base::TimePoint{base::Duration{nanoseconds}};
 }
 
-using Words = std::array<std::uint32_t, 3>; // three singles, or sums
+using Words = std::array<std::uint32_t, 3>; // three single-precision numbers, or three sums
 
 /// All at once: one question whether there is room, and not three.
 inline void put_words(ByteWriter& out, const Words& words)
@@ -133,7 +133,7 @@ std::optional<base::TimePoint> take_optional_time(ByteReader& in, bool present, 
     return std::nullopt;
 }
 
-constexpr std::uint32_t ids_known = ~std::uint32_t{1}; // 1 to 31
+constexpr std::uint32_t ids_known = ~std::uint32_t{1}; // bits of the ids 1 to 31
 
 bool is_canonical(const HandModel& hand)
 {
@@ -180,7 +180,7 @@ using Fault = const char*;
 
 Fault take(ByteReader& in, Hello& hello)
 {
-    bool canonical = in.u32() == 0; // no session yet
+    bool canonical = in.u32() == 0; // a hello has no session number
     const std::uint8_t flags = in.u8();
     hello.nonce = in.u32();
     hello.nonce_heard = in.u32();
@@ -319,7 +319,7 @@ inline bool is_finite(const State& state)
 
 // The number of bytes of every state after its type, and of those that a body adds.
 constexpr std::size_t head_bytes = 82, body_bytes = 50;
-constexpr std::size_t turning_bytes = 44; // and one that can turn
+constexpr std::size_t turning_bytes = 44; // further bytes of a body that can turn
 
 Fault take(ByteReader& in, State& state)
 {
@@ -388,7 +388,6 @@ template <typename Kind>
 
 } // namespace
 
-/// FNV-1a, folded to 32 bits.
 std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
 {
     std::uint64_t mixed = (static_cast<std::uint64_t>(low_nonce) << 32 | high_nonce);
@@ -400,6 +399,7 @@ std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
     return number == 0 ? 1 : number;
 }
 
+/// FNV-1a, folded to 32 bits.
 std::uint32_t boot_of(std::string_view boot_id)
 {
     if (boot_id.empty()) return 0;
@@ -465,7 +465,7 @@ Orientation Orientation::from(const glm::dquat& orientation)
     for (std::size_t i = 1; i < 4; ++i) {
         if (std::abs(components[i]) > std::abs(components[largest])) largest = i;
     }
-    const double sign = components[largest] < 0.0 ? -1.0 : 1.0; // q and -q are one orientation
+    const double sign = components[largest] < 0.0 ? -1.0 : 1.0; // q and -q are the same orientation
     std::uint64_t code = std::uint64_t{largest} << (3 * component_bits);
     unsigned place = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -481,7 +481,7 @@ Orientation Orientation::from(const glm::dquat& orientation)
 std::optional<Orientation> Orientation::from_code(std::uint64_t code)
 {
     if (code >> (3 * component_bits + 2) != 0) return std::nullopt;
-    for (unsigned i = 0; i < 3; ++i) { // symmetrical: the least code has no opposite
+    for (unsigned i = 0; i < 3; ++i) { // codes are symmetrical: code 0 has no opposite
         if ((code >> (component_bits * i) & component_mask) == 0) return std::nullopt;
     }
     if (!(smallest_three(code).largest_square >= 0.0)) return std::nullopt;

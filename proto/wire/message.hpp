@@ -70,7 +70,7 @@ struct HandModel {
 /// "Here I am, this is what I play; have you heard me?" Sent every 20 ms until both know the
 /// start.
 struct Hello {
-    std::uint32_t nonce = 0;       // this run of the sender; never 0
+    std::uint32_t nonce = 0;       // number of this run of the sender; never 0
     std::uint32_t nonce_heard = 0; // the other side's nonce; 0: nothing heard yet
     std::uint16_t peer_id = 0;     // never 0
     std::uint16_t tick_rate_hz = 0;
@@ -79,11 +79,11 @@ struct Hello {
     base::TimePoint sent;
     std::optional<Echo> echo;
     std::optional<base::TimePoint> start;       // the session's start on the sender's clock
-    std::optional<base::TimePoint> start_heard; // the other side's `start`, as it said it
+    std::optional<base::TimePoint> start_heard; // the other side's `start` as received
     bool in_session = false; // the sender was there before: its start and seed count
     TaskName task;
-    std::uint32_t length_ms = 0; // of the session that the sender was asked for; 0: not said
-    std::uint32_t heard = 0;     // bit i: the sender hears peer i, of the ids 1 to 31
+    std::uint32_t length_ms = 0; // requested length of the session; 0: not given
+    std::uint32_t heard = 0;     // bit i: the sender hears peer i, 1 to 31
     std::uint32_t boot = 0;      // a hash of the boot id of the sender's machine; 0: unknown
     HandModel hand;
 
@@ -100,7 +100,7 @@ public:
     /// Returns nullopt for a code that no quaternion has.
     [[nodiscard]] static std::optional<Orientation> from_code(std::uint64_t code);
 
-    [[nodiscard]] glm::dquat quaternion() const; // of unit length
+    [[nodiscard]] glm::dquat quaternion() const; // a unit quaternion
     [[nodiscard]] std::uint64_t code() const { return code_; }
 
     friend bool operator==(const Orientation&, const Orientation&) = default;
@@ -184,7 +184,7 @@ public:
     [[nodiscard]] BodyState* end() { return all_.data() + count_; }
     /// The first body; nullptr: there is no body.
     [[nodiscard]] const BodyState* first() const { return empty() ? nullptr : begin(); }
-    /// nullptr: not among them.
+    /// The state of this body; nullptr: it is not among them.
     [[nodiscard]] const BodyState* find(std::uint16_t body) const;
 
     friend bool operator==(const BodyStates& a, const BodyStates& b);
@@ -193,7 +193,7 @@ private:
     static_assert(std::is_trivially_destructible_v<BodyState>);
     union {
         // NOLINTNEXTLINE(readability-identifier-naming): a member of this class
-        std::array<BodyState, bodies_max> all_; // the first count_ of them
+        std::array<BodyState, bodies_max> all_; // only the first count_ are valid
     };
     std::size_t count_ = 0;
 };
@@ -208,16 +208,16 @@ struct State {
     base::TimePoint sent;
     std::optional<Echo> echo;
     bool touching = false; // the sender's hand pushes or holds the body
-    bool holding = false;  // it holds it
+    bool holding = false;  // the sender's hand holds the body
     base::Position hip;
     base::Velocity hip_velocity;
-    base::Force contact_force; // that the sender's hand exerts on the bodies
+    base::Force contact_force; // force of the sender's hand on the bodies
     /// The place where the hand wants to be, from the HIP; to 10 um, at most 0.327 m along an axis.
     base::Displacement intention;
-    base::Velocity intention_velocity; // to 0.2 mm/s, at most 6.55 m/s along an axis
+    base::Velocity intention_velocity; // precise to 0.2 mm/s, at most 6.55 m/s per axis
     /// Work of the hand on its device since the session began, in microjoules, modulo 2^32.
     std::uint32_t work_uj = 0;
-    BodyStates bodies; // that something touches or moves
+    BodyStates bodies; // bodies that something touches or moves
 
     friend bool operator==(const State&, const State&) = default;
 };
@@ -235,7 +235,7 @@ inline constexpr std::uint8_t bye_reasons = 7;
 
 /// "I am leaving", or "we cannot play together, and this is why".
 struct Bye {
-    std::uint32_t session = 0; // 0: there is none
+    std::uint32_t session = 0; // 0: no session
     ByeReason reason = ByeReason::finished;
 
     friend bool operator==(const Bye&, const Bye&) = default;
@@ -244,7 +244,7 @@ struct Bye {
 using Message = std::variant<Hello, State, Bye>;
 
 /// The bytes of one encoded message.
-class Datagram { // NOLINT(*-member-init): what is behind the message is never read
+class Datagram { // NOLINT(*-member-init): bytes after the message are never read
 public:
     Datagram() = default;                              // NOLINT(*-member-init)
     Datagram(const Datagram& other) { *this = other; } // NOLINT(*-member-init)

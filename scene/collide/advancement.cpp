@@ -89,7 +89,7 @@ Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& searc
     const glm::dvec3 offset = b.box.centre - a.box.centre;
     const glm::dvec3 velocity = b.motion.velocity - a.motion.velocity;
     const double gap = search.gap + search.near;
-    double enter = 0.0; // after `from`
+    double enter = 0.0; // seconds after `from`
     double leave = search.to - search.from;
     const auto consider = [&](const glm::dvec3& direction, double length) {
         const double reach =

@@ -18,7 +18,7 @@ struct PlaneSurface {
 /// A corner of a box over a plane, or an end of a round body.
 struct PlaneCorner {
     glm::dvec3 place{0.0};     // from the box's centre
-    double rise = 0.0;         // along the plane's normal, likewise
+    double rise = 0.0;         // height over the box's centre, along the plane's normal
     std::uint32_t feature = 0; // which corner: a bit for each axis on whose positive side it is
 };
 

@@ -12,14 +12,14 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr double flush = 1.0 / 256.0; // of a half edge
+constexpr double flush = 1.0 / 256.0; // share of a half edge
 constexpr std::uint32_t polygon_max = 8;
 
 /// A corner of the polygon where the faces lie on each other, in the reference face's plane.
 struct Vertex {
     double u = 0.0;
     double v = 0.0;
-    double separation = 0.0; // when the polygon is complete
+    double separation = 0.0; // set when the polygon is complete
     FeatureBits reference = 0;
     FeatureBits incident = 0;
 };
@@ -42,21 +42,21 @@ struct Polygon {
 
 /// The reference face's rectangle, and the incident face's parallelogram seen from it.
 struct Faces {
-    int axis_u = 1; // of the reference box: the two next to the face's own, cyclically
+    int axis_u = 1; // axes of the reference box: the two next to the face's own, cyclically
     int axis_v = 2;
     double half_u = 0.0;
     double half_v = 0.0;
     FeatureBits reference = 0;
 
-    int turned_axis = 0; // the incident face's
+    int turned_axis = 0; // axis of the incident face's normal
     FeatureBits incident = 0;
     glm::dvec3 centre{0.0};           // of the incident face: u, v, height above the reference face
-    glm::dvec3 first{0.0};            // half edges of the incident face, likewise
-    glm::dvec3 second{0.0};           //
-    double slope_u = 0.0;             // of the incident plane
-    double slope_v = 0.0;             //
-    double beside = 0.0;              // how far the boxes are apart along u or v; < 0: not
-    double tolerance = 0.0;           // within which an edge lies on another
+    glm::dvec3 first{0.0};            // one half edge of the incident face: u, v, height
+    glm::dvec3 second{0.0};           // the other half edge of the incident face
+    double slope_u = 0.0;             // slope of the incident plane along u
+    double slope_v = 0.0;             // slope of the incident plane along v
+    double beside = 0.0;              // how far the boxes are apart along u or v; < 0: they are not
+    double tolerance = 0.0;           // an edge this near to another lies on it
     glm::dvec3 normal{0.0, 1.0, 0.0}; // world's frame, out of the reference face
 
     [[nodiscard]] double separation(double u, double v) const
@@ -68,7 +68,7 @@ struct Faces {
 /// Two opposite sides of the reference face's rectangle: where u or v is plus or minus a limit.
 struct Strip {
     bool is_v = false;
-    int axis = 0; // the reference box's that u or v is measured along
+    int axis = 0; // axis of the reference box along which u or v is measured
     double limit = 0.0;
     double tolerance = 0.0;
 

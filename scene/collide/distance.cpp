@@ -61,7 +61,7 @@ std::array<glm::dvec3, 2> nearest(const Segment& p, const Segment& q)
     const double po = glm::dot(p.along, offset);
     const double qo = glm::dot(q.along, offset);
     const double across = pp * qq - pq * pq;
-    constexpr double alike = 1e-16; // then any point of p will do: corners are looked at, too
+    constexpr double alike = 1e-16; // parallel: any point of p will do: corners count, too
     double s = across > alike * pp * qq ? std::clamp((pq * qo - po * qq) / across, 0.0, 1.0) : 0.0;
     const double t = std::clamp((pq * s + qo) / qq, 0.0, 1.0);
     s = std::clamp((pq * t - po) / pp, 0.0, 1.0);
@@ -161,7 +161,7 @@ Separation separation(const OrientedBox& first, const OrientedBox& second)
             consider(a, b);
         }
     }
-    if (least <= 0.0) return found; // nearer than rounding: the axis says how
+    if (least <= 0.0) return found; // nearer than rounding: the separating axis gives the result
     found.distance = std::sqrt(least);
     found.direction = (found.on_first - found.on_second) / found.distance;
     return found;

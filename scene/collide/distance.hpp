@@ -12,7 +12,7 @@ namespace hapnet::scene {
 struct Separation {
     double distance = 0.0;
     glm::dvec3 direction{0.0}; // unit, from the second to the first: the way out
-    glm::dvec3 on_first{0.0};  // the nearest points of their surfaces
+    glm::dvec3 on_first{0.0};  // nearest points of the two surfaces
     glm::dvec3 on_second{0.0};
 };
 
@@ -29,7 +29,7 @@ struct Separation {
 /// 1), at most `length`. A ray from inside enters at once.
 struct RayEntry {
     double distance = 0.0;
-    glm::dvec3 normal{0.0}; // of the surface; against the ray where it began inside
+    glm::dvec3 normal{0.0}; // normal of the surface; against the ray if it began inside
 };
 [[nodiscard]] std::optional<RayEntry> enter(const OrientedBox& box, const glm::dvec3& origin,
                                             const glm::dvec3& direction, double length);

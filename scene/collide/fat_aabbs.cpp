@@ -209,7 +209,7 @@ constexpr std::size_t block = 16;
 /// True if any of a block has left.
 bool any_left(const Lanes& lanes, std::size_t first)
 {
-    const Lanes own = lanes; // which nothing else can change
+    const Lanes own = lanes; // a local copy, which nothing else can change
     std::uint64_t any = 0;
     for (std::size_t n = first; n < first + block; ++n) any |= left_at(own, n);
     return any >> sign != 0;

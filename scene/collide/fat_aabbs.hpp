@@ -41,15 +41,16 @@ private:
         glm::dvec3 centre{0.0};
         glm::dvec3 room{0.0};
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
-        double similarity_min = -1.0;   // of the squared scalar product of orientations
-        double angular_momentum2 = 0.0; // at most, squared
+        /// Least squared scalar product of `orientation` and the body's orientation.
+        double similarity_min = -1.0;
+        double angular_momentum2 = 0.0; // square of the greatest angular momentum
     };
     /// The margins that follow from a body's size, metres.
     struct Size {
-        double nearby = 0.0; // nearby_margin, in metres
-        double stray = 0.0;  // what it may stray from its path
-        double radius = 0.0; // of its corners
-        double ease = 0.0;   // an upper bound of its inverse moments of inertia, 1/(kg m^2)
+        double nearby = 0.0; // pair_margin, in metres
+        double stray = 0.0;  // how far the body may stray from its path
+        double radius = 0.0; // distance of the corners from the centre
+        double ease = 0.0;   // an upper bound of the inverse moments of inertia, 1/(kg m^2)
     };
 
     [[nodiscard]] Size size_of(const BodyProperties& properties) const;
@@ -57,7 +58,7 @@ private:
 
     double tick_;
     glm::dvec3 gravity_;
-    std::vector<Bounds> bounds_; // by id of a body
+    std::vector<Bounds> bounds_; // by BodyId
     // The lanes by slot, in the order of Bounds: middle, room, orientation w x y z, likeness,
     // momentum.
     static constexpr std::size_t lanes = 12;

@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    using Link = std::uint32_t; // an entry: of the body link / cells_each
+    using Link = std::uint32_t; // index of an entry, which belongs to the body link / cells_each
     static constexpr Link none = ~Link{0};
     static constexpr Link cells_each = 18; // 3 by 3 by 2
 
@@ -57,7 +57,7 @@ private:
     struct Node {
         Aabb box;
         Cells cells;
-        BodyId place_in_large = none; // none: it is in the cells
+        BodyId place_in_large = none; // none: the body is in the cells
     };
     /// A body in a cell; two cells may share a bucket.
     struct Entry {
@@ -111,9 +111,9 @@ private:
         }
     }
 
-    std::vector<Node> nodes_;    // by id
-    std::vector<Entry> entries_; // cells_each of every body
-    std::vector<Link> heads_;    // of the buckets
+    std::vector<Node> nodes_;    // by BodyId
+    std::vector<Entry> entries_; // cells_each for every body
+    std::vector<Link> heads_;    // first entry of each bucket
     Bounded<BodyId> large_;
     double cell_ = 1.0;
     double cells_per_m_ = 1.0;

@@ -136,7 +136,7 @@ bool InternalFaces::is_shared(PartId part, const LocalOverlap& at) const
 {
     for (std::uint32_t i = first_[part]; i < first_[part + std::size_t{1}]; ++i) {
         const Neighbour& other = neighbours_[i];
-        if (other.part > part) return false; // sorted
+        if (other.part > part) return false; // neighbours are sorted by part
         const double size = smallest(other.box.half);
         if (is_in(other.box, at.point - flush_share * size * at.normal, place_rounding * size))
             return true;

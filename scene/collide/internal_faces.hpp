@@ -56,8 +56,8 @@ private:
     [[nodiscard]] bool is_covered(PartId part, const glm::dvec3& half, const glm::dvec3& place,
                                   const BoxFace& face) const;
 
-    std::vector<Neighbour> neighbours_{}; // of one part after the other
-    std::vector<std::uint32_t> first_{};  // where those of a part begin; one more at the end
+    std::vector<Neighbour> neighbours_{}; // of all parts, part by part
+    std::vector<std::uint32_t> first_{};  // by PartId: its first neighbour; one extra entry
 };
 
 } // namespace hapnet::scene

@@ -19,7 +19,7 @@ struct OrientedBox {
     glm::dvec3 centre{0.0};
     glm::dmat3 axes{1.0};
     glm::dvec3 half{0.02};
-    double rounding = 0.0; // of a sphere or a capsule, how far its surface is from its core, m
+    double rounding = 0.0; // m: from the core of a sphere or a capsule to its surface
 
     [[nodiscard]] bool is_round() const { return rounding > 0.0; }
 };
@@ -28,7 +28,7 @@ struct OrientedBox {
 struct ContactPoint {
     glm::dvec3 position;   // world, midway between the two surfaces
     double separation;     // along the normal; < 0: overlap
-    std::uint32_t feature; // which features meet; the same from tick to tick while they do
+    std::uint32_t feature; // which features meet; unchanged from tick to tick while they do
 };
 
 inline constexpr std::uint32_t manifold_points_max = 4;

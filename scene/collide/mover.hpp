@@ -21,9 +21,9 @@ struct Whirl {
     static constexpr double far_turn = 0.5;
 
     glm::dvec3 axis{0.0};
-    std::array<double, 4> along{}; // m, of each corner and the opposite one
+    std::array<double, 4> along{}; // m, along the axis: one for each pair of opposite corners
     std::array<double, 4> across{};
-    double widest = 0.0; // m, of `across`
+    double widest = 0.0; // m: the largest of `across`, or the radius
     bool is_known = false;
 
     /// Finds the reach of a box that turns far enough within `time`. Otherwise the reach is its
@@ -38,7 +38,7 @@ struct Whirl {
         }
         is_known = true;
         axis = box.spin / std::sqrt(square);
-        if (box.is_part) { // not around the axis: no more is known than how far it reaches
+        if (box.is_part) { // not around the axis: only its radius is known
             along.fill(radius);
             across.fill(radius);
             widest = radius;
@@ -69,10 +69,10 @@ struct Whirl {
 /// The facts that a look needs about one of the two.
 struct Mover {
     const SteadyBox& motion;
-    bool turns = false;            // a sphere looks the same, however it turns
+    bool turns = false;            // false for a sphere: it looks the same, however it turns
     double speed_of_turning = 0.0; // rad/s
     Whirl whirl;
-    OrientedBox box; // now
+    OrientedBox box; // the box at the present time
 
     Mover(const SteadyBox& its, double from, double to)
         : motion{its},

@@ -165,7 +165,7 @@ void PairFinder<broad_phase>::update_hand(Hand& hand, PartId id)
         std::copy(place + 1, bodies.end(), place);
         bodies.resize(bodies.size() - 1);
     } else {
-        bodies.add(id); // its room is for all: `place` stays
+        bodies.add(id); // there is room for all, so that `place` stays valid
         std::rotate(place, bodies.end() - 1, bodies.end());
     }
 }
@@ -195,7 +195,7 @@ template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::on_wake(const Bodies& bodies, BodyId body)
 {
     fat_boxes_.update_slot(bodies, bodies.slot_of[body]);
-    if (counts().pairs_left_out != 0) has_left_out_ = true; // perhaps its own, while it slept
+    if (counts().pairs_left_out != 0) has_left_out_ = true; // perhaps of this body
     const auto activate = [this](PairIndex index) { pairs_.set_active(index, true); };
     bodies.for_parts(body, [&](PartId part) {
         pairs_.for_first(part, activate);

@@ -17,7 +17,7 @@ namespace hapnet::scene {
 
 /// The method by which the movable bodies of a scene find each other.
 enum class BroadPhase : std::uint8_t {
-    none,      // there is only one
+    none,      // there is only one movable body
     all_pairs, // each is compared with each
     grid,
 };
@@ -101,7 +101,7 @@ public:
     /// Counts of the work done, for tests and measurements.
     struct Counts {
         std::uint64_t renewed = 0;       // bodies that left their fat boxes
-        std::uint64_t hands_renewed = 0; // hands that did
+        std::uint64_t hands_renewed = 0; // hands that left their fat boxes
         // The number of pairs without room (32 for every movable body, 8 with planes). A pair
         // counts again in every tick; 0 unless very many bodies overlap. The search for them goes
         // on until there is room.
@@ -127,7 +127,7 @@ private:
     void renew_hand(Hand& known, const HandPath& path);
 
     std::vector<PlaneDescription> planes_of_scene_;
-    bool has_parts_; // some body has several
+    bool has_parts_; // some body has several parts
     FatAabbs fat_boxes_;
     Finder boxes_;
     PairSet pairs_;
@@ -135,7 +135,7 @@ private:
     std::vector<Hand> hands_;
     Bounded<Slot> moved_out_;
     bool has_left_out_ = false;         // there was no room for a pair
-    std::vector<std::uint64_t> stamps_; // by id: already a pair with the body that is renewed
+    std::vector<std::uint64_t> stamps_; // by PartId: stamp_ if paired with the renewed part
     std::uint64_t stamp_ = 0;
     std::uint64_t renewed_ = 0;
     std::uint64_t hands_renewed_ = 0;

@@ -31,7 +31,7 @@ PairSet::PairSet(Room room)
 
 bool PairSet::add(std::uint32_t a, std::uint32_t b, bool is_active)
 {
-    if (pairs_.is_full() && free_.is_empty()) apply_changes(); // what was removed makes room
+    if (pairs_.is_full() && free_.is_empty()) apply_changes(); // removed pairs make room
     if (pairs_.is_full() && free_.is_empty()) {
         ++left_out_;
         return false;
@@ -64,7 +64,7 @@ void PairSet::remove(PairIndex index)
         return;
     }
     set_active(index, false);
-    removed_.add(index); // its place is free once it is off the list
+    removed_.add(index); // its index is free once it is off the list
 }
 
 void PairSet::set_active(PairIndex index, bool is_active)
@@ -107,9 +107,9 @@ void PairSet::drop_parked()
     PairIndex* from = active_.begin();
     for (const PairIndex index : parked_) {
         marks_[index] &= static_cast<std::uint8_t>(~parking);
-        if (is_active(index)) continue; // it came back
+        if (is_active(index)) continue; // the pair is active again
         PairIndex* const place = find(from, active_.end(), index);
-        if (place == active_.end() || *place != index) continue; // it was still to come
+        if (place == active_.end() || *place != index) continue; // the pair is still in arriving_
         to = to == nullptr ? place : std::copy(from, place, to);
         from = place + 1;
         marks_[index] = 0;

@@ -19,8 +19,8 @@ struct ContactMemory {
     std::array<double, manifold_points_max> normal_impulse{};
     glm::dvec3 friction_impulse{0.0}; // tangential, world's frame
     double torsion_impulse = 0.0;
-    std::uint32_t ticks = 0;             // since its impulses were corrected
-    double normal_impulse_of_tick = 0.0; // N s, all of it, with bounces; if `count` > 0
+    std::uint32_t ticks = 0;             // since the last correction of the impulses
+    double normal_impulse_of_tick = 0.0; // N s, with bounces; valid if `count` > 0
 };
 
 /// True if the contact had a normal impulse last tick: then what sleeps on it wakes with it.
@@ -108,7 +108,7 @@ private:
     // active_ or arriving_.
     static constexpr std::uint8_t active_mark = 1;
     static constexpr std::uint8_t listed = 2;
-    static constexpr std::uint8_t parking = 4; // in parked_
+    static constexpr std::uint8_t parking = 4; // listed in parked_
 
     void link(PairIndex index);
     void unlink(PairIndex index);
@@ -118,13 +118,13 @@ private:
 
     Bounded<Pair> pairs_;
     Bounded<Links> links_;
-    Bounded<std::uint64_t> keys_; // a, then b
+    Bounded<std::uint64_t> keys_; // by pair: `a` in the high half, `b` in the low half
     Bounded<std::uint8_t> marks_;
     Bounded<PairIndex> free_;
-    std::vector<PairIndex> first_, second_; // heads of the lists
+    std::vector<PairIndex> first_, second_; // by `a` and by `b`: first pair of the list
     Bounded<PairIndex> active_, arriving_, added_;
-    Bounded<PairIndex> parked_;  // no longer active, and still listed
-    Bounded<PairIndex> removed_; // of those the removed ones
+    Bounded<PairIndex> parked_;  // pairs that are no longer active, but still in a list
+    Bounded<PairIndex> removed_; // removed pairs whose index is free after the next apply_changes()
     std::uint32_t size_ = 0;
     std::uint64_t left_out_ = 0;
 };

@@ -41,8 +41,8 @@ public:
     /// An axis along which they are apart.
     struct Open {
         double distance; // m
-        double place;    // of the second one's centre, along the axis
-        double length;   // of the axis, which is no unit vector where two edges cross
+        double place;    // of the second box's centre along the axis, from the first's
+        double length;   // length of the axis: 1, or the sine between two edges
         std::size_t axis;
     };
     struct OpenAxes {
@@ -146,7 +146,7 @@ public:
             add(1, half_a[i2], turn_[i1][j], turning_[i1][j]);
             add(2, half_b[j1], turn_[i][j2], turning_[i][j2]);
             add(3, half_b[j2], turn_[i][j1], turning_[i][j1]);
-            found.approach = std::abs(gap) * both; // its length changes
+            found.approach = std::abs(gap) * both; // the axis changes its length
         }
         found.approach += open.place < 0.0 ? moves : -moves;
         found.bend = both * both * halves + turns * (turns * apart + 2.0 * speed) +
@@ -170,7 +170,7 @@ private:
     const Mover& b_;
     PerAxis offset_{};
     PerAxis velocity_{};
-    std::array<PerAxis, 3> turn_{}; // [i][j]: of the second one's axis j along the first one's i
+    std::array<PerAxis, 3> turn_{}; // [i][j]: axis j of the second box along axis i of the first
     std::array<PerAxis, 3> turning_{};
 };
 

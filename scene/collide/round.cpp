@@ -24,7 +24,7 @@ constexpr double no_distance = 1e-9;
 struct CoreLine {
     glm::dvec3 centre{0.0};
     glm::dvec3 axis{1.0, 0.0, 0.0}; // unit
-    double half = 0.0;              // 0: a point
+    double half = 0.0;              // 0: the line is a point
 
     [[nodiscard]] glm::dvec3 at(double place) const { return centre + place * axis; }
 };
@@ -38,13 +38,13 @@ CoreLine line_of(const OrientedBox& shape)
 
 /// The place where a line and another core are nearest.
 struct Meeting {
-    double distance = 0.0;  // of the cores; < 0 of a line that is in a box
-    glm::dvec3 normal{0.0}; // unit, from the line to the other
-    double place = 0.0;     // on the line
+    double distance = 0.0;  // between the cores; < 0 if the line is in the box
+    glm::dvec3 normal{0.0}; // unit, from the line to the other core
+    double place = 0.0;     // place on the line
     glm::dvec3 other{0.0};  // the nearest point of the other core
     // The part of the line along which the other is as near, or would be if the line did not tilt.
     double from = 0.0, to = 0.0;
-    double tilt = 0.0; // by how much it comes nearer along the line
+    double tilt = 0.0; // by how much the line comes nearer to the other core along itself
 
     void set_alongside(double first, double last)
     {
@@ -167,8 +167,8 @@ private:
             double place, slope;
         };
         constexpr double far = std::numeric_limits<double>::infinity();
-        Bend falls{-far, 0.0}, rises{far, 0.0}; // the last before the least, the first after it
-        double first_level = far, last_level = -far; // of those where it is level
+        Bend falls{-far, 0.0}, rises{far, 0.0}; // the last before the minimum, the first after it
+        double first_level = far, last_level = -far; // first and last place where the slope is 0
         const auto consider = [&](double place) {
             const double its = slope(place);
             if (its < 0.0 && place > falls.place) falls = {place, its};
@@ -233,7 +233,7 @@ private:
                                  std::abs(glm::dot(normal, centre_));
             if (!(depth < least)) return;
             least = depth;
-            best = glm::dot(normal, centre_) > 0.0 ? -normal : normal; // into the box
+            best = glm::dot(normal, centre_) > 0.0 ? -normal : normal; // the direction into the box
             within = {};
             if (face < 3) within = {face != 0, face != 1, face != 2};
         };
@@ -321,7 +321,7 @@ Manifold round_manifold(const OrientedBox& a, const OrientedBox& b, double margi
             .separation = here,
             .feature = feature};
     };
-    constexpr double too_near = 1e-9; // of the line
+    constexpr double too_near = 1e-9; // share of the line's half length
     if (found.to - found.from > too_near * line.half) {
         add(found.from, 2);
         add(found.to, 3);

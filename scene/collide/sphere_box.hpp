@@ -21,7 +21,7 @@ struct BoxFace {
 
     friend bool operator==(const BoxFace&, const BoxFace&) = default;
 };
-/// The one across `axis` on the side of a place, given from the box's centre.
+/// The face across `axis` on the side of a place, given from the box's centre.
 [[nodiscard]] inline BoxFace face_at(std::size_t axis, double place)
 {
     return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};

@@ -15,7 +15,7 @@ struct SteadyBox {
     glm::dvec3 velocity{0.0};
     glm::dvec3 spin{0.0};
     glm::dvec3 half{0.02};
-    double radius = 0.0;   // of the corners
+    double radius = 0.0;   // greatest distance of the surface from `centre`
     double rounding = 0.0; // see OrientedBox
     // A part of a body of several, which goes round the centre: where in the body's frame it is.
     // Then `radius` is how far it reaches from there.

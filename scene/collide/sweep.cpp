@@ -116,7 +116,7 @@ void SweptBoxes::forget(const Bodies& bodies, BodyId body)
 {
     bodies.for_parts(body, [&](PartId part) {
         entries_[part].seen = 0;
-        entries_[part].now.orientation = {0.0, 0.0, 0.0, 0.0}; // like no other
+        entries_[part].now.orientation = {0.0, 0.0, 0.0, 0.0}; // equal to no orientation
     });
 }
 

@@ -22,16 +22,16 @@ struct BoxSweep {
     const OrientedBox& box;
     glm::dvec3 velocity{0.0};
     double reach = 0.0;
-    double radius = 0.0;    // of the corners
-    glm::dvec3 offset{0.0}; // of the box's centre from its body's
+    double radius = 0.0;    // greatest distance of the surface from the box's centre, m
+    glm::dvec3 offset{0.0}; // from the body's centre to the box's
 };
 
-/// The contact of two boxes, and their bodies' centres at that time.
+/// The contact of two boxes, and their bodies' centres at the time of the contact.
 struct SweptContact {
     Manifold manifold;
     ContactPlaces centres;
-    double first_touch = std::numeric_limits<double>::infinity(); // s: of those that go far
-    bool may_pass = false; // they go far, and may meet if they turn
+    double first_touch = std::numeric_limits<double>::infinity(); // s, if they go far
+    bool may_pass = false; // the bodies go far, and may meet if they turn
 };
 
 /// Finds where two boxes touch, or will within the tick. For boxes that go far in the tick, it
@@ -40,15 +40,15 @@ struct SweptContact {
 [[nodiscard]] SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick,
                                          BoxBoxMemory& memory);
 
-/// The box of a body, or of one of its parts, and how far it comes.
+/// The box of a body, or of one of its parts, and how far it may come in the tick.
 struct SweptBox {
     OrientedBox box;
     // The orientation of the box's axes: the body's, or an earlier one that differs by no more than
     // rounding. Values that follow from the axes stay valid with it.
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
-    std::uint64_t turns = 0; // how often the axes were found anew
-    double radius = 0.0;     // of the corners, m
-    glm::dvec3 offset{0.0};  // of the box's centre from the body's, m: 0 of a body of one part
+    std::uint64_t turns = 0; // how often the axes were computed again
+    double radius = 0.0;     // greatest distance of the surface from the box's centre, m
+    glm::dvec3 offset{0.0};  // from the body's centre to the box's, m; 0 for a body of one part
     // An upper bound of how far any part of the box may come in the tick, m. For a body asleep: as
     // if it were awake.
     double reach = 0.0;

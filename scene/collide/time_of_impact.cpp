@@ -44,7 +44,7 @@ public:
         if (!overlap) {
             const double length =
                 std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-            if (approach <= speed_error_ * length) return false; // sliding along it, or leaving
+            if (approach <= speed_error_ * length) return false; // sliding, or moving apart
             enter(std::max(apart, 0.0) / approach, error / approach, direction);
         }
         if (approach != 0.0) {

@@ -67,7 +67,7 @@ struct Task {
     std::span<const HandSpring> springs;
     std::span<SpringImpulse> work;
     PressedModes& modes;
-    std::size_t& rows; // solved by the midpoint rule
+    std::size_t& rows; // rows that the midpoint rule solved
 };
 template <std::size_t count>
 void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
@@ -89,7 +89,7 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
 /// rounding.
 bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
 {
-    constexpr double hardly = 5e-11; // half of the angle
+    constexpr double hardly = 5e-11; // half of the angle, rad
     const glm::dquat& from = start.orientation;
     const glm::dquat& to = end.orientation;
     return std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z) <= hardly;

@@ -27,32 +27,33 @@ struct BodyDynamics {
     glm::dvec3 half{0.0}; // half the edges of the box, on which its hands slide and turn
     glm::dvec3 inverse_mass{0.0};
     glm::dmat3 inverse_inertia{0.0}; // world's frame, at the start of the tick
-    bool rotates_uniformly =
-        false; // rotation does not change it, and it is diagonal: a cube, or one axis
-    glm::dvec3 acceleration{0.0}; // of everything but the hands
-    glm::dvec3 torque{0.0};       // of everything but the hands, N m
-    double drag = 0.0;            // 1/s, of the centre's velocity along a plane
-    glm::dvec3 drag_normal{0.0};  // of that plane, unit
-    double rounding = 0.0;        // m, of a round body: from its core to its surface
-    glm::dvec3 moments{0.0};      // of inertia, kg m^2, where they are not those of that box
+    /// True if rotation does not change the inverse inertia and it is diagonal: the body is a cube,
+    /// or turns about one axis alone.
+    bool rotates_uniformly = false;
+    glm::dvec3 acceleration{0.0}; // by everything but the hands
+    glm::dvec3 torque{0.0};       // by everything but the hands, N m
+    double drag = 0.0;            // 1/s: how fast drag takes the centre's velocity along a plane
+    glm::dvec3 drag_normal{0.0};  // unit normal of the plane with drag
+    double rounding = 0.0;        // m: from the core of a round body to its surface
+    glm::dvec3 moments{0.0};      // moments of inertia, kg m^2, if not those of that box; else 0
 };
 
 /// A hand's spring on a body: unilateral along its normal, or, when it holds, in all directions.
 struct HandSpring {
     glm::dvec3 normal{0.0};   // unit, from the body to the hand
     glm::dvec3 arm{0.0};      // from the body's centre to the point of its surface that is pushed
-    double radius = 0.0;      // of the hand's sphere, about whose centre the contact turns
-    double gap = 0.0;         // along the normal at the start of the tick; < 0: overlap
-    glm::dvec3 velocity{0.0}; // of the hand, held for the tick
+    double radius = 0.0;      // radius of the hand's sphere; the contact turns about its centre
+    double gap = 0.0;         // distance along the normal at the start of the tick; < 0: overlap
+    glm::dvec3 velocity{0.0}; // velocity of the hand, held for the tick
     double stiffness = 0.0;
     double damping = 0.0;
     double force_max = std::numeric_limits<double>::infinity();
     // True if it presses a face (and does not grip) within nine tenths of the half edges from the
     // middle.
     bool is_amid_face = false;
-    bool holds = false;             // it also pulls, and `stretch` says how far in every direction
-    glm::dvec3 stretch{0.0};        // hand minus where it is held; used when it holds
-    const BodyPart* part = nullptr; // of a body of several, that is pushed
+    bool holds = false;             // a grip: the spring also pulls, along `stretch`
+    glm::dvec3 stretch{0.0};        // from the held point to the hand; used if `holds`
+    const BodyPart* part = nullptr; // the pushed part of a body of several parts
 };
 
 /// The effect of a spring in the tick.
@@ -63,9 +64,9 @@ struct SpringImpulse {
 /// The energy that the springs which hold a body can give it. They also pull, and so take and give
 /// far more within a tick than the tick passes on in the end.
 struct GripEnergy {
-    double impulse = 0.0; // N s: the sum of their sizes
-    double stored = 0.0;  // J, at the start
-    double driven = 0.0;  // J: the work of the hands' own motion on them
+    double impulse = 0.0; // N s: sum of the sizes of the springs' impulses
+    double stored = 0.0;  // J: energy of the springs at the start
+    double driven = 0.0;  // J: the work of the hands' own motion on these springs
 
     /// The energy that these impulses can give where `fastest` is the speed of the body's fastest
     /// corner at the start or the end of the tick. Within the tick the corner may be faster.
@@ -88,15 +89,15 @@ struct GripEnergy {
 
 /// The energy that passed between a body and its hands in a tick.
 struct HandEnergy {
-    std::size_t rows = 0;   // that the midpoint rule solved for it
-    double stored = 0.0;    // J, in the springs on the body at the start, but for those that hold
+    std::size_t rows = 0;   // rows that the midpoint rule solved
+    double stored = 0.0;    // J: energy at the start in the springs on the body that do not hold
     double driven = 0.0;    // J: the work of the hands' own motion on the springs
-    GripEnergy grips;       // of the springs that hold
+    GripEnergy grips;       // energy of the springs that hold
     bool is_braked = false; // the springs' impulses were scaled down
 };
 
 /// Advances a body by one tick under constant other forces and its hands' springs; at most
-/// hips_max of them, and `work` as long. What a spring begins or ceases to do within the tick it
+/// hands_max of them, and `work` as long. What a spring begins or ceases to do within the tick it
 /// does at its moment.
 ///
 /// One or two unilateral springs are oscillators in closed form: exact while normals and arms stay

@@ -76,17 +76,17 @@ private:
     const BodyDynamics& dynamics_;
     const PressingSprings& springs_;
     double tick_;
-    glm::dvec3 ease_; // 1/(kg m^2), about each axis
-    TwoVectors hand_; // seen from the body's centre, at the start
-    TwoVectors away_; // the body's velocity over the hand's, at the start
+    glm::dvec3 ease_; // inverse inertia about each axis, 1/(kg m^2)
+    TwoVectors hand_; // places of the hands at the start, from the body's centre
+    TwoVectors away_; // the body's velocity relative to the hand, at the start
     TwoVectors normal_, lever_;
     Two own_;              // 1/kg
     double mutual_ = 0.0;  // 1/kg
     Two depth_, closing_;  // at the start
-    Two acceleration_;     // of the depths, by everything but the springs
-    Two impulse_, moment_; // of the forces, N s, and its integral, N s^2
+    Two acceleration_;     // of the depths, without the springs' forces
+    Two impulse_, moment_; // impulses of the forces, N s, and their integrals, N s^2
     glm::dvec3 moved_, angle_;
-    TwoVectors gone_; // the hands, seen from the body's centre
+    TwoVectors gone_; // ways of the hands relative to the body's centre
     TwoVectors push_;
     glm::dquat turn_;
 };

@@ -22,7 +22,7 @@ namespace hapnet::scene {
 /// One or two springs that press amid faces, side by side; where there is one, it stands twice.
 struct PressingSprings {
     TwoVectors normal{}, arm{}, velocity{}; // see HandSpring
-    Two radius{}, gap{};                    // likewise
+    Two radius{}, gap{};                    // see HandSpring
     Two stiffness{}, damping{}, force_max{};
     bool are_two = false;
 };

@@ -13,7 +13,7 @@ namespace {
 struct TrajectoryIntegrals {
     TrajectoryPoint motion;
     double once = 0.0;  // the integral of the displacement
-    double twice = 0.0; // the integral of that
+    double twice = 0.0; // the integral of `once`
 };
 
 TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)

@@ -17,7 +17,7 @@ struct SpringContact {
     double force_max = 0.0;
     double depth = 0.0;        // > 0: overlap
     double closing = 0.0;      // by how much the depth grows per second
-    double acceleration = 0.0; // of the depth, by everything but the springs
+    double acceleration = 0.0; // of the depth, without the springs' forces
     SpringPhase phase = SpringPhase::apart;
 
     [[nodiscard]] double unlimited_force() const { return stiffness * depth + damping * closing; }
@@ -36,7 +36,7 @@ struct Coupling {
 template <std::size_t count>
 struct PhaseImpulses {
     double time = 0.0;
-    std::array<double, count> impulse{}; // of the force, N s
+    std::array<double, count> impulse{}; // impulse of each force, N s
     std::array<double, count> moment{};  // the integral of the impulse, N s^2
 };
 
@@ -63,7 +63,7 @@ private:
     /// The end of a phase.
     struct End {
         double time = 0.0;
-        std::size_t contact = count; // none
+        std::size_t contact = count; // count: no contact
         SpringPhase then = SpringPhase::apart;
     };
 
@@ -85,11 +85,11 @@ private:
     // Each depth is its start plus the weighted sum of two trajectories.
     std::array<Propagator, count> propagators_;
     Trajectories trajectories_;
-    std::array<std::array<double, count>, count> share_{}; // of depth i in trajectory j
+    std::array<std::array<double, count>, count> share_{}; // [i][j]: trajectory j in depth i
     // The modes of the springs that press: one alone, or two.
     std::size_t modes_ = 0;
-    std::array<double, count> start_{};                     // depth of the mode
-    std::array<std::array<double, count>, count> weight_{}; // of force i in mode j
+    std::array<double, count> start_{};                     // depth of each mode at the start
+    std::array<std::array<double, count>, count> weight_{}; // [i][j]: weight of mode j in force i
     double lag_ = 0.0;                                      // damping over stiffness
 };
 

@@ -13,8 +13,9 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int phases_max = 64;          // of a tick
-constexpr double part_min = 1.0 / 32.0; // of a tick, that is cut off only because something turns
+constexpr int phases_max = 64; // most phases in a tick
+// Least share of a tick that is cut off only because something turns.
+constexpr double part_min = 1.0 / 32.0;
 // The most that a normal may rotate in half an interval: then its mean is right to 1e-5.
 constexpr double normal_rotation_max = 0.01;
 
@@ -148,7 +149,7 @@ bool ContactPhases<count>::advance()
 {
     for (int phase = 0; phase < phases_max && time_left_ > 0.0; ++phase) {
         double time = time_left_;
-        double predicted = time; // the time whose middle `held` belongs to
+        double predicted = time; // `held` is the geometry in the middle of this time
         for (int attempt = 0;; ++attempt) {
             const HeldGeometry held = geometry_halfway(predicted);
             const Coupling coupling = set_couplings(held);

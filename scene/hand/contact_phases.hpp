@@ -36,7 +36,7 @@ private:
     struct HeldGeometry {
         glm::dmat3 inverse_inertia{0.0};
         std::array<ContactGeometry, count> contacts;
-        double normal_change2 = 0.0; // of the normal that turned farthest since the start, squared
+        double normal_change2 = 0.0; // squared change of the normal that turns farthest
     };
 
     [[nodiscard]] HeldGeometry geometry_halfway(double time) const;
@@ -50,14 +50,14 @@ private:
     double tick_;
     double time_left_;
     bool rotates_;
-    double largest_normal_change_ = 0.0; // the farthest that a normal turned in a phase, squared
-    glm::dmat3 inverse_inertia_;         // now
-    glm::dmat3 axes_;                    // of the body, now
+    double largest_normal_change_ = 0.0; // squared: largest change of a normal in a phase
+    glm::dmat3 inverse_inertia_;         // at the present time
+    glm::dmat3 axes_;                    // axes of the body at the present time
     std::array<const HandSpring*, count> springs_{};
     std::array<SpringImpulse*, count> works_{};
     std::array<BoxSurface, count> surfaces_;
-    std::array<glm::dvec3, count> hand_positions_{}; // seen from the body's centre, now
-    std::array<ContactGeometry, count> geometries_;  // now
+    std::array<glm::dvec3, count> hand_positions_{}; // present positions, from the body's centre
+    std::array<ContactGeometry, count> geometries_;  // at the present time
     std::array<bool, count> is_amid_face_{};
     std::array<SpringContact, count> contacts_;
 };

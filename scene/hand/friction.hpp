@@ -16,9 +16,9 @@ namespace hapnet::scene {
 /// B. Armstrong, A new computational model of friction applied to haptic rendering, 2000; CHAI3D's
 /// friction proxy). It keeps to the body, however that moves.
 struct FrictionSpring {
-    HandFriction limits{};   // as shares of the force across the surface; 0: it is smooth
-    glm::dvec3 stretch{0.0}; // of the hand over the proxy, along the surface, at the start
-    bool slides = false;     // at the start, and then at the end
+    HandFriction limits{};   // shares of the force across the surface; 0: no friction
+    glm::dvec3 stretch{0.0}; // from the proxy to the hand, along the surface, at the start
+    bool slides = false;     // at the start of the tick, and afterwards at its end
     glm::dvec3 slid{0.0};    // how far the proxy went over the surface in the tick
 
     [[nodiscard]] double limit() const { return slides ? limits.sliding : limits.sticking; }
@@ -48,8 +48,8 @@ HandEnergy advance_with_friction(MovingBody& body, const BodyDynamics& dynamics,
 struct Rub {
     double stiffness = 0.0;
     double damping = 0.0;
-    glm::dvec3 velocity{0.0}; // of the hand over the surface, along it
-    double impulse = 0.0;     // across the surface, N s
+    glm::dvec3 velocity{0.0}; // velocity of the hand over the surface, along it
+    double impulse = 0.0;     // N s: impulse across the surface
     double tick = 0.0;
 };
 

@@ -16,12 +16,12 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr double swing_max = 0.25;    // radians of the stiffest mode in a sub-tick
-constexpr double rotation_max = 0.05; // radians of the body in a sub-tick
+constexpr double swing_max = 0.25;    // radians of the stiffest mode in a substep
+constexpr double rotation_max = 0.05; // radians of the body in a substep
 
 struct Mean {
     double force = 0.0;
-    double slope = 0.0; // over the mean closing speed
+    double slope = 0.0; // derivative of the force by the mean closing speed
 };
 
 /// The energy of a unilateral spring over its stiffness and its force, with `bend` the depth from
@@ -403,7 +403,7 @@ void MidpointRule<rubs>::solve(double substep)
         easiest = std::max(easiest, dot(row_[i].response, row_[i].response));
         size = std::max(size, std::abs(row_[i].closing));
     }
-    const double negligible = converged * size / substep; // of a scaled velocity
+    const double negligible = converged * size / substep; // for the scaled velocities
     const auto is_negligible = [&](const Six& six) {
         return dot(six, six) * easiest <= negligible * negligible;
     };

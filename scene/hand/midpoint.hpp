@@ -81,20 +81,20 @@ private:
         std::size_t spring = 0;
         glm::dvec3 normal{0.0};
         glm::dvec3 lever{0.0};
-        double depth = 0.0;   // at the start of the sub-tick
-        double closing = 0.0; // mean over the sub-tick, without the springs' forces
-        Six response{};       // of the scaled velocities to its force
-        double mean = 0.0;    // mean closing with the springs' forces
-        double force = 0.0;   // mean
-        double slope = 0.0;   // of the force over the mean closing
+        double depth = 0.0;   // at the start of the substep
+        double closing = 0.0; // mean over the substep, without the springs' forces
+        Six response{};       // response of the scaled velocities to the row's force
+        double mean = 0.0;    // mean closing speed, with the springs' forces
+        double force = 0.0;   // mean over the substep
+        double slope = 0.0;   // derivative of `force` by `mean`
     };
     struct Spring {
         const HandSpring* form = nullptr;
         BoxSurface surface;
-        glm::dvec3 hand{0.0};    // seen from the body's centre; of one that holds, where it pulls
-        glm::dvec3 anchor{0.0};  // of one that holds, in the body's frame
-        double depth = 0.0;      // kept from one substep to the next while it acts
-        bool is_limited = false; // it holds with all its force, along `pull`
+        glm::dvec3 hand{0.0};    // from the body's centre: the hand, or where a grip pulls to
+        glm::dvec3 anchor{0.0};  // for a spring that holds: the held point, in the body's frame
+        double depth = 0.0;      // kept from one substep to the next while the spring acts
+        bool is_limited = false; // the spring holds with its greatest force, along `pull`
         glm::dvec3 pull{0.0};    // unit
     };
     /// The pull of a spring along the surface; its rows are the two after that of the push.
@@ -102,7 +102,7 @@ private:
         FrictionSpring* form = nullptr;
         glm::dvec3 stretch{0.0};
         bool is_cut = false;
-        double along_1 = 0.0, along_2 = 0.0; // of the cut pull: unit
+        double along_1 = 0.0, along_2 = 0.0; // unit: direction of the cut pull in the two rows
     };
 
     [[nodiscard]] int substeps(double time);
@@ -123,8 +123,8 @@ private:
     const BodyDynamics& dynamics_;
     std::span<SpringImpulse> work_;
     bool rotates_;
-    glm::dmat3 inverse_inertia_; // halfway, of the sub-tick
-    glm::dmat3 inertia_now_;     // inverse
+    glm::dmat3 inverse_inertia_; // halfway through the substep
+    glm::dmat3 inertia_now_;     // inverse inertia at the present time
     std::size_t springs_ = 0;
     std::size_t rows_ = 0;
     std::size_t rows_solved_ = 0;

@@ -46,7 +46,7 @@ HandEnergy energy_of(std::span<const HandSpring> springs, std::span<const Spring
 
 struct MomentsRatio {
     double spread = 0.0; // the largest moment of inertia over the smallest, less 1
-    double range = 0.0;  // of 1/2 L I^-1 L for |L| = 1
+    double range = 0.0;  // range of 1/2 L I^-1 L for |L| = 1
 };
 MomentsRatio moments_of(const BodyDynamics& dynamics)
 {
@@ -284,11 +284,11 @@ private:
     HandTick body_;
     std::span<const HandSpring> springs_;
     [[no_unique_address]] Frictions frictions_;
-    MovingBody free_; // at the end, without hands
+    MovingBody free_; // the body at the end without hands
     glm::dvec3 mass_;
     double driven_;
-    glm::dvec3 velocity_{0.0};         // by the hands
-    glm::dvec3 angular_momentum_{0.0}; // by the hands
+    glm::dvec3 velocity_{0.0};         // change by the hands
+    glm::dvec3 angular_momentum_{0.0}; // change by the hands
     double before_ = 0.0;
     double after_ = 0.0;
     GripEnergy grips_;

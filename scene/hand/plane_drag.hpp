@@ -20,7 +20,7 @@ public:
     {
         return scaled(velocity, &Factors::kept) + time_ * scaled(acceleration, &Factors::mean);
     }
-    /// Over the time.
+    /// Returns the mean velocity over the time.
     [[nodiscard]] glm::dvec3 mean_velocity(const glm::dvec3& velocity,
                                            const glm::dvec3& acceleration) const
     {
@@ -35,7 +35,7 @@ public:
 
 private:
     /// With x = drag times time: exp(-x), (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2.
-    struct Factors { // without drag
+    struct Factors { // the default values: without drag
         double kept = 1.0;
         double mean = 1.0;
         double moved = 0.5;
@@ -52,8 +52,8 @@ private:
 
     double time_;
     glm::dvec3 root_of_inverse_mass_;
-    glm::dvec3 across_axis_{0.0}; // unit: where the body can move most across the plane
-    Factors along_;               // of all directions but that
+    glm::dvec3 across_axis_{0.0}; // unit: the plane's normal without its part along locked axes
+    Factors along_;               // for all directions perpendicular to across_axis_
     Factors across_;
 };
 

@@ -40,9 +40,9 @@ void PressedModes::renew(const Key& key)
     change_by_left_ = Two{a.change_by_left, b.change_by_left};
 }
 
-/// With y_n = y^(n)(0) tick^n / n! and f_n likewise, y_(n+2) = -tick^2 response f_n / ((n+1)
-/// (n+2)), and the integrals of the force are the sums of f_n over n+1, over (n+1) (n+2), and so
-/// on.
+/// With y_n = y^(n)(0) tick^n / n! and f_n defined the same way, y_(n+2) = -tick^2 response f_n /
+/// ((n+1) (n+2)), and the integrals of the force are the sums of f_n over n+1, over (n+1) (n+2),
+/// and so on.
 bool PressedModes::set(Mode& mode, double response) const
 {
     const double tick = key_.tick;

@@ -16,7 +16,7 @@ public:
     /// Everything that they depend on.
     struct Key {
         Two own{};           // how a depth responds to its own force; 0: no second spring
-        double mutual = 0.0; // ... and to the other's
+        double mutual = 0.0; // how a depth responds to the other spring's force
         double stiffness = 0.0;
         double damping = 0.0;
         double tick = 0.0;
@@ -79,10 +79,10 @@ private:
     void renew(const Key& key);
     [[nodiscard]] bool set(Mode& mode, double response) const;
 
-    Key key_{.tick = -1.0}; // of no tick
+    Key key_{.tick = -1.0}; // the key of no tick
     bool is_short_ = false;
     double cosine_ = 1.0;
-    Two sine_{}; // and the other way round
+    Two sine_{}; // the sine and its negative
     double half_square_ = 0.0;
     Two response_{}; // 1/kg
     Two once_{}, twice_{}, thrice_{};

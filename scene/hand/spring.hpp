@@ -17,8 +17,8 @@ namespace hapnet::scene {
 enum class SpringPhase : std::uint8_t {
     apart,    // no overlap
     slack,    // they overlap, but the spring would have to pull: no force either
-    pressing, // between nothing and the greatest force
-    limited,  // the greatest force
+    pressing, // the force is between 0 and the greatest force
+    limited,  // the force is the greatest force
 };
 
 /// The push of the spring and damper at one moment, N.

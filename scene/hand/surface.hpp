@@ -40,7 +40,7 @@ private:
     glm::dvec3 half_{0.0};
     double radius_ = 0.0;
     const BodyPart* part_ = nullptr;
-    glm::dvec3 face_{0.0}; // its normal
+    glm::dvec3 face_{0.0}; // normal of the face, in the box's frame
     bool is_face_ = false;
 };
 
@@ -51,7 +51,7 @@ private:
 struct EnergyCorrection {
     MovingBody& body;
     const BodyDynamics& dynamics;
-    const glm::dmat3& inverse_inertia; // now
+    const glm::dmat3& inverse_inertia; // in the present orientation
     double tick = 0.0;
 };
 

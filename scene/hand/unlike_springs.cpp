@@ -7,9 +7,9 @@
 
 namespace hapnet::scene {
 
-/// With d_n = d^(n)(0) tick^n / n! and f_n likewise, d_(n+2) = -tick^2 G f_n / ((n+1) (n+2)), and
-/// the integrals of the force are the sums of f_n / (n+1) and of f_n / ((n+1) (n+2)). The sum of
-/// all |f_n| but the first is the most that the force can change.
+/// With d_n = d^(n)(0) tick^n / n! and f_n defined the same way, d_(n+2) = -tick^2 G f_n / ((n+1)
+/// (n+2)), and the integrals of the force are the sums of f_n / (n+1) and of f_n / ((n+1) (n+2)).
+/// The sum of all |f_n| but the first is the most that the force can change.
 std::optional<PressedModes::Outcome> UnlikeSprings::outcome(const PressedModes::Start& start) const
 {
     using Each = std::array<double, 2>;

@@ -10,7 +10,7 @@ constexpr int steps_max = 200;
 
 struct Sample {
     double value, rate, second_derivative;
-    double second_derivative_max; // of |bend| from then on
+    double second_derivative_max; // greatest |second_derivative| from this time on
 };
 
 Sample sample(const WatchedQuantity& watched, const Trajectories& trajectories, double time,
@@ -49,8 +49,8 @@ RootSearch search_root(const WatchedQuantity& watched, const Trajectories& traje
                        double from, double to, int& steps_left)
 {
     using End = RootSearch::End;
-    constexpr double near = 1e-14; // of the time searched: as good as reached
-    constexpr double flat = 1e-9;  // of the greatest bend: no bend at all
+    constexpr double near = 1e-14; // share of the time searched: the root counts as reached
+    constexpr double flat = 1e-9;  // share of the greatest second derivative that counts as none
     const double nearest = near * (to - from);
 
     double time = from;

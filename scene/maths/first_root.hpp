@@ -22,7 +22,7 @@ struct WatchedQuantity {
     double slope = 0.0;
     PerAxis displacement_weight{};
     PerAxis speed_weight{};
-    bool leaves_zero = false; // it starts at 0 up to rounding, and is known to grow
+    bool leaves_zero = false; // the quantity starts at 0 up to rounding, and is known to grow
 };
 
 /// True if value + rate t cannot fall below 0 within `time` while |second derivative| <=
@@ -37,7 +37,7 @@ struct WatchedQuantity {
 struct RootSearch {
     enum class End : std::uint8_t { none, found, given_up };
     End end = End::none;
-    double time = 0.0; // of the root; given up: until when there is none
+    double time = 0.0; // time of the root; if given up: there is none before it
 };
 
 /// Finds the time when the quantity first falls to 0, in [from, to). No root is missed: the search
@@ -48,7 +48,8 @@ struct RootSearch {
                                      const Trajectories& trajectories, double from, double to,
                                      int& steps_left);
 
-/// ... nullopt when it does not. After 200 steps it only asks for the sign at the end.
+/// Returns the time that search_root() finds; nullopt when the quantity does not fall to 0. After
+/// 200 steps it only asks for the sign at the end.
 [[nodiscard]] std::optional<double> first_root(const WatchedQuantity& watched,
                                                const Trajectories& trajectories, double from,
                                                double to);

@@ -142,7 +142,7 @@ StepResponse step_response(const Oscillator& oscillator, double time)
     if (b <= 1.0 && k <= 1.0) return series(b, k, time);
 
     const double half = 0.5 * oscillator.damping;
-    const double square = oscillator.stiffness - half * half; // of the frequency
+    const double square = oscillator.stiffness - half * half; // the frequency squared
     if (square < -0.25 * half * half) return overdamped(oscillator, std::sqrt(-square), time);
 
     const Wave w = wave(half, square, time);

@@ -36,7 +36,7 @@ struct StepResponse {
 /// An oscillator with its response at the end of a tick, which is the one that most ticks need.
 struct Propagator {
     Oscillator oscillator;
-    double frequency = 0.0; // of the undamped oscillator, 1/s
+    double frequency = 0.0; // angular frequency without damping, 1/s
     double period = 0.0;    // 1/frequency; infinity without stiffness
     double tick = 0.0;      // seconds
     StepResponse at_tick;
@@ -66,8 +66,8 @@ struct TrajectoryPoint {
 struct Trajectory {
     const Propagator* propagator;
     double speed; // at the start
-    double push;  // acceleration at the start, but for the damping
-    double ramp;  // by which `push` grows, m/s^3
+    double push;  // acceleration at the start, without the damping's part
+    double ramp;  // rate at which `push` grows, m/s^3
 
     [[nodiscard]] bool moves() const { return propagator != nullptr; }
     /// True if it stays where it is, whatever its propagator.

@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    glm::dmat3 lower_{0.0}; // by columns
+    glm::dmat3 lower_{0.0}; // lower_[column][row]
 };
 
 } // namespace hapnet::scene

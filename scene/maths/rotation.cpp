@@ -24,7 +24,7 @@ glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeRotation& s
 
 HalfAngle half_angle(double z)
 {
-    constexpr double none = 1e-17; // both round to 1
+    constexpr double none = 1e-17; // cosine and sinc both round to 1 below it
     if (z <= none) return {};
     if (z <= small_half_angle_max) return small_half_angle(z);
     const double half = std::sqrt(z);
@@ -116,7 +116,7 @@ std::optional<glm::dquat> with_energy(const glm::dquat& orientation, const FreeR
     // round.
     constexpr int rounds_max = 5;
     constexpr double flat = 1e-9, far = 0.1;                // radians
-    constexpr double rounding = 2e-15, good_enough = 1e-13; // of the energy
+    constexpr double rounding = 2e-15, good_enough = 1e-13; // shares of the energy
     const glm::dvec3& momentum = spin.angular_momentum;
     glm::dquat found = orientation;
     for (int round = 0;; ++round) {

@@ -63,7 +63,7 @@ inline constexpr double small_half_angle_max = 0.6168; // (pi/4)^2
 
 /// The rotation of a body that nothing touches.
 struct FreeRotation {
-    glm::dvec3 angular_momentum{0.0}; // kg m^2/s, world's frame; it stays
+    glm::dvec3 angular_momentum{0.0}; // kg m^2/s, world's frame; constant
     glm::dvec3 inverse_inertia{0.0};  // about the body's own axes
 };
 

@@ -57,11 +57,11 @@ public:
     /// True if the box has no more energy than it had and was given.
     [[nodiscard]] bool holds(double share) const
     {
-        constexpr double tolerated = 1e-7; // of the energy that is there
+        constexpr double tolerated = 1e-7; // share of the energy that is there
         const double mass = 1.0 / box_.oscillators.inverse_mass();
         const PerAxis after = velocity(share);
         PerAxis mean{};
-        PerAxis weight{}; // what the steady forces add
+        PerAxis weight{}; // velocity that the steady forces add
         for (std::size_t i = 0; i < 3; ++i) {
             mean[i] = 0.5 * config_.tick * (start_.velocity[i] + after[i]);
             weight[i] = config_.tick * start_.steady[i];

@@ -12,7 +12,7 @@ struct TickStart {
     PerAxis position{};
     PerAxis velocity{};
     PerAxis steady{};    // acceleration by gravity and pushes; 0 along locked axes
-    double stored = 0.0; // J, in the springs of hands that hold
+    double stored = 0.0; // J, in the springs of hands that hold the box
 };
 
 /// The last line, for ticks that are not exact to rounding throughout. Where the box has gained

@@ -39,7 +39,7 @@ WatchedQuantity watch_tension(const BoxMotion& box, const AnySpring& spring, dou
 struct Tension {
     double force, rate, bend;
     double closing;      // m/s
-    double acceleration; // m/s^2, the most that its depth can have
+    double acceleration; // m/s^2: the most that the depth can accelerate
 
     template <typename AnySpring>
     Tension(const BoxMotion& box, const AnySpring& spring)
@@ -73,7 +73,7 @@ template <typename AnySpring>
 struct SpringEventFinder {
     const BoxMotion& box;
     const AnySpring& spring;
-    Event what; // but for the next phase
+    Event what; // the event without its next phase
     Event& first;
 
     void expect_phase(const WatchedQuantity& watch, SpringPhase next) const
@@ -192,7 +192,7 @@ void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
         const double place = box.position[axis] + motion_after(box, axis, time).displacement;
         const double side = obstacle.side(axis, place);
         const double face = obstacle.face(axis, side);
-        Event reached = first; // the axis reaches the face
+        Event reached = first; // the moment at which this axis reaches the face
         if (!expect(box, watch_gap(box, axis, side, face), time, reached, {})) {
             if (reached.kind == Kind::unknown) first = reached;
             return;

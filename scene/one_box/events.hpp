@@ -9,24 +9,24 @@ namespace hapnet::scene {
 /// An event that ends an interval of a tick.
 struct Event {
     enum class Kind : std::uint8_t {
-        none,   // the end of the tick
+        none,   // nothing before the end of the tick
         spring, // a hand's spring comes into another phase
         slanted_spring,
-        impact,    // the box arrives at a fixed one or a plane
-        unloading, // it no longer presses on its support
-        edge,      // it slides off its support
+        impact,    // the box arrives at a fixed box or a plane
+        unloading, // the box no longer presses on its support
+        edge,      // the box slides off its support
         stop,      // friction has stopped it
-        slip,      // friction does not hold it any more
+        slip,      // friction no longer holds the box
         unknown,   // the search for events was given up here
     };
     double time = 0.0; // from the start of the interval
     Kind kind = Kind::none;
-    std::uint32_t spring = 0;               // its index among those of its kind
-    SpringPhase phase = SpringPhase::apart; // the spring's next one
-    std::size_t axis = 0;                   // of an impact, an unloading or an edge
+    std::uint32_t spring = 0;               // index of the spring among those of its kind
+    SpringPhase phase = SpringPhase::apart; // next phase of the spring
+    std::size_t axis = 0;                   // axis of an impact, an unloading or an edge
     double face = 0.0;                      // where the centre is at an impact or an edge
-    double side = 0.0;                      // of an impact: +1 at a high face
-    const Obstacle* obstacle = nullptr;     // of an impact
+    double side = 0.0;                      // at an impact: +1 at a high face, -1 at a low one
+    const Obstacle* obstacle = nullptr;     // the obstacle of an impact
 };
 
 /// True if nothing but dry friction can end the interval before the tick does. That is nearly

@@ -42,7 +42,7 @@ Tangential tangential(const BoxMotion& box)
 }
 
 /// True if the direction cannot change: only one axis takes part, or force and speed have the same
-/// direction, the force is steady, and both axes respond alike.
+/// direction, the force is steady, and both axes respond equally.
 bool is_straight(const BoxMotion& box, const Tangential& free)
 {
     if (free.count < 2) return true;

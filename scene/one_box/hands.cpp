@@ -176,7 +176,7 @@ inline void BoxHands::collide_box(const WorldConfig& config, WorldState& state, 
     const PerAxis out = beyond(from_centre, half_);
     const std::size_t axis = face_axis(out, radius);
     FaceContact found{index, {}, 0.0};
-    if (axis != no_axis) { // as nearly always when it pushes
+    if (axis != no_axis) { // nearly always so when the hand pushes
         found.face = memory_[index].entered = face_at(axis, from_centre[axis]);
         found.depth = radius - out[axis];
     } else {
@@ -273,7 +273,7 @@ void BoxHands::add_held_springs(BoxMotion& box)
     for (HeldSpring& spring : box.active_held()) {
         const PerAxis& normal = spring.normal;
         double closing = spring.closing;
-        double bend = 0.0; // of the depth, without this spring
+        double bend = 0.0; // acceleration of the depth, without this spring
         double ease = 0.0; // 1/mass along the normal
         for (std::size_t i = 0; i < 3; ++i) {
             if (is_kept(i)) continue;

@@ -47,8 +47,8 @@ private:
         PerAxis half;
     };
     struct Memory {
-        BoxFace entered;                  // of the movable box
-        std::optional<PerAxis> held_at{}; // from the box's centre
+        BoxFace entered;                  // face of the movable box through which the hand came in
+        std::optional<PerAxis> held_at{}; // held point, from the box's centre
         PerAxis query_position{};
         double clear = -1.0; // no fixed box is nearer to `query_position`, along every axis
 

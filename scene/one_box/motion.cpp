@@ -229,7 +229,7 @@ AxisOscillators::AxisOscillators(const HandDescription& hands, const BodyPropert
                                  double tick)
     : inverse_mass_{1.0 / body.mass}
 {
-    constexpr double little = 1.0 / 16.0; // of the velocity in a tick
+    constexpr double little = 1.0 / 16.0; // share of the velocity that changes in a tick
     soft_ = tick * (tick * hands.stiffness_n_per_m + hands.damping_ns_per_m) <= little * body.mass;
     for (const bool with_drag : {false, true}) {
         for (std::size_t n = 0; n <= hands_max; ++n) {

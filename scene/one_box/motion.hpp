@@ -37,25 +37,25 @@ private:
 
 /// The motion of one axis of the box.
 struct AxisMotion {
-    double applied_acceleration; // acceleration of the forces that hold for the tick
+    double applied_acceleration; // by the forces that are constant over the tick
     bool is_locked;
-    bool is_stopped;        // locked, or for the rest of the tick
-    bool is_losing_support; // its support has just lost it
+    bool is_stopped;        // the axis does not move in this tick: it is locked
+    bool is_losing_support; // the box has just stopped pressing on its support
 
-    const Obstacle* below; // at whose high face it is
+    const Obstacle* below; // the obstacle at whose high face the box is
     const Obstacle* above;
-    const Obstacle* support; // one of them, when it presses on that
-    double load;             // by which it presses, per mass; >= 0; only with a support
-    double load_ramp;        // m/s^3
+    const Obstacle* support; // `below` or `above`, if the box presses on it
+    double load;             // m/s^2: press on the support, per mass; >= 0; only with a support
+    double load_ramp;        // m/s^3: rate at which `load` grows
 
     double acceleration; // at the start of the interval
-    Bounds bounds;       // for what is left of the tick
-    double reach;        // how far it can come in what is left of the tick
+    Bounds bounds;       // for the rest of the tick
+    double reach;        // how far the box can go along the axis in the rest of the tick
 
-    /// True if it is kept where it is by something else than dry friction.
+    /// True if something else than dry friction keeps the box where it is along the axis.
     [[nodiscard]] bool is_held() const { return is_stopped || support; }
-    /// True if a plane slows the box by its drag. One that is locked onto a plane cannot be lifted
-    /// off it, whatever pulls.
+    /// True if a plane slows the box by its drag. A box that is locked onto a plane cannot be
+    /// lifted off the plane, whatever pulls.
     [[nodiscard]] bool is_dragged() const
     {
         if (!is_locked) return support && support->is_plane;
@@ -67,8 +67,8 @@ struct AxisMotion {
 struct DryFriction {
     enum class State : std::uint8_t { none, stuck, sliding };
     State state = State::none;
-    bool starts_slipping = false; // it has just begun to slide
-    PerAxis direction{};          // of the sliding
+    bool starts_slipping = false; // the box has just begun to slide
+    PerAxis direction{};          // direction of the sliding
     double limit = 0.0;           // the greatest friction, per mass
     double limit_ramp = 0.0;
 };
@@ -104,18 +104,18 @@ struct Spring {
 
 struct FaceSpring : Spring {
     std::size_t axis;
-    double sign; // of the normal, from the box to the hand
+    double sign; // sign of the normal along `axis`, from the box to the hand
 
     /// A vector's part along the normal.
     [[nodiscard]] double along(const PerAxis& v) const { return sign * v[axis]; }
     void add_along(PerAxis& v, double size) const { v[axis] += size * sign; }
-    /// ... of a vector of which a function gives the components.
+    /// The part along the normal of a vector whose components a function gives.
     template <typename Component>
     [[nodiscard]] double along_each(const Component& component) const
     {
         return sign * component(axis);
     }
-    /// The most that it can be when the sizes of the components are given.
+    /// The greatest possible part along the normal of a vector whose components have these sizes.
     template <typename Size>
     [[nodiscard]] double most_along(const Size& size) const
     {
@@ -149,7 +149,7 @@ struct SlantedSpring : Spring {
 struct HeldSpring {
     std::uint32_t hand;
     PerAxis normal; // unit, from the box to the hand
-    double depth;   // along it, at the start of the tick
+    double depth;   // along the normal, at the start of the tick
     double closing; // the hand's share of the closing speed
     double force;   // on the hand along the normal
 };
@@ -157,7 +157,7 @@ struct HeldSpring {
 /// A hand that holds the box: a spring and a damper in all directions, which also pull.
 struct GripSpring {
     std::uint32_t hand;
-    PerAxis stretch; // from where it is held to the hand, at the start of the interval
+    PerAxis stretch; // from the held point to the hand, at the start of the interval
     PerAxis velocity;
     PerAxis impulse; // on the box, so far in the tick
 };
@@ -167,15 +167,15 @@ struct GripSpring {
 /// the sum of n n^T over the springs: each mode is an oscillator of its own, however many springs
 /// press.
 struct CoupledAxes {
-    std::array<PerAxis, 3> direction; // of each mode, unit
+    std::array<PerAxis, 3> direction; // direction of each mode, unit
     Trajectories modes;
     std::array<Propagator, 3> propagators;
 };
 
 /// Memory that a tick needs only if something happens in it.
 struct TickRoom {
-    CoupledAxes coupled; // only while BoxMotion::is_coupled
-    int root_steps = 0;  // that the searches for events have left
+    CoupledAxes coupled; // valid only while BoxMotion::is_coupled
+    int root_steps = 0;  // steps left for the searches for events
 };
 
 /// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
@@ -199,15 +199,15 @@ struct BoxMotion {
     double clearance = 0.0; // how far the box may go until something else is near
 
     double time_left = 0.0;  // of the tick, s
-    bool is_exact = true;    // but for rounding: so is every tick without slanted springs, grips
-                             // and crowds of events
+    bool is_exact = true;    // exact up to rounding, as is every tick without slanted springs,
+                             // grips and crowds of events
     bool is_coupled = false; // a slanted spring presses
-    bool is_on_plane;        // which drags
+    bool is_on_plane;        // the box is on a plane whose drag acts
     PerAxis position;
     PerAxis velocity;
     std::array<AxisMotion, 3> axes;
     Trajectories trajectories;
-    std::array<std::size_t, 3> spring_counts; // of faces and grips, per axis
+    std::array<std::size_t, 3> spring_counts; // pressing face springs and grips, per axis
     DryFriction dry_friction;
 
     std::uint32_t spring_count = 0;

@@ -17,9 +17,9 @@ namespace hapnet::scene {
 struct Obstacle {
     PerAxis low{};
     PerAxis high{};
-    Material material{}; // of the pair
+    Material material{}; // combined material of the obstacle and the box
     bool is_plane = false;
-    std::size_t normal_axis = 0; // of a plane
+    std::size_t normal_axis = 0; // axis of the normal, if it is a plane
 
     /// The distance of a centre outside of it along an axis; < 0: between its two faces.
     [[nodiscard]] double gap(std::size_t axis, double place) const
@@ -71,7 +71,7 @@ private:
     std::array<bool, 3> locked_{};
     PerAxis query_centre_{};
     double default_margin_ = 0.0;
-    double margin_ = -1.0; // what is farther from `query_centre_` is not in the list
+    double margin_ = -1.0; // nearby_ leaves out what is farther than this from query_centre_
 };
 
 } // namespace hapnet::scene

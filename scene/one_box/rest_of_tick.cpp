@@ -24,7 +24,7 @@ Push mean_push(const HandDescription& hands, double from, double to, double time
 {
     const double k = hands.stiffness_n_per_m;
     const double c = hands.damping_ns_per_m;
-    const double bend = hands.force_max_n / k; // from this depth on it does not grow any more
+    const double bend = hands.force_max_n / k; // beyond this depth the force does not grow any more
     const double change = to - from;
     Push push;
     const bool is_linear = std::min(from, to) >= 0.0 && std::max(from, to) <= bend;
@@ -192,7 +192,7 @@ private:
     double share_of(const PerAxis& change, double falls) const
     {
         constexpr int tries_max = 40;
-        constexpr double near = 0.1; // of the slope at the start: as good as level
+        constexpr double near = 0.1; // share of the slope at the start: as good as level
         double low = 0.0;
         double high = 1.0;
         double share = 1.0;
@@ -216,9 +216,9 @@ private:
 };
 
 struct Hit {
-    double time; // of the step: 0 at its start, 1 at its end
+    double time; // share of the step: 0 at its start, 1 at its end
     std::size_t axis;
-    double way; // of that axis, to the face
+    double way; // displacement along that axis to the face
 };
 
 /// Returns where the straight way of a step first meets an obstacle.
@@ -295,7 +295,7 @@ bool finish_tick(BoxMotion& box)
         box.nearby = box.obstacles.nearby(box.position, reach);
         const auto hit = first_hit(box, step.way());
         if (!hit) break;
-        if (tries == tries_max) { // between more faces than that it stays
+        if (tries == tries_max) { // between more faces than that the box stays
             for (const std::size_t i : {0U, 1U, 2U}) step.fix(i, 0.0);
             is_at_face = {};
             is_stopped = true;
@@ -306,7 +306,7 @@ bool finish_tick(BoxMotion& box)
         faces[hit->axis] = box.position[hit->axis] + hit->way;
     }
     const PerAxis impulse = step.commit(box);
-    PerAxis pressing{}; // N s, on what holds the fixed axes
+    PerAxis pressing{}; // N s: impulse on what holds the fixed axes
     for (std::size_t i = 0; i < 3; ++i) {
         pressing[i] = impulse[i] + box.velocity[i] / box.oscillators.inverse_mass();
         if (step.is_fixed(i)) {

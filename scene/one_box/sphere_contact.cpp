@@ -12,7 +12,7 @@ namespace {
 /// The time and the face at which the hand enters the box grown by the radius.
 struct Entry {
     double time = 0.0;
-    std::size_t axis = no_axis; // none: it is inside of the grown box from the start
+    std::size_t axis = no_axis; // no_axis: the hand is inside the grown box from the start
 };
 
 std::optional<Entry> entry_into_grown_box(const SphereMotion& hand, const PerAxis& half)
@@ -42,7 +42,7 @@ std::optional<SphereContact> first_contact(const SphereMotion& hand, const PerAx
 {
     const OutsideVector out{hand.from_centre, half};
     const auto found = entry_into_grown_box(hand, half);
-    if (!found) { // the box may still come to it
+    if (!found) { // the box may still come to the hand
         if (out.directions > 1) return std::nullopt;
         return contact_at_face(hand.from_centre, half, out.face(), hand.radius);
     }

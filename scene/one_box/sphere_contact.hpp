@@ -28,8 +28,8 @@ struct SphereContact {
 /// The vector to a place from the closest point of a box around the origin.
 struct OutsideVector {
     PerAxis away{};
-    std::size_t axis = 0;       // along which it is longest
-    std::size_t directions = 0; // that take part: 0 inside, 1 before a face
+    std::size_t axis = 0;       // axis along which `away` is longest
+    std::size_t directions = 0; // number of nonzero components of `away`: 0 inside, 1 before a face
 
     OutsideVector(const PerAxis& place, const PerAxis& half)
     {

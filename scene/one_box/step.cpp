@@ -108,7 +108,7 @@ void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldSt
 {
     for (;;) { // each time a hand holds less: no more often than there are hands
         BoxMotion box = start.copy();
-        query_obstacles(box, 0.0); // the last try may have asked elsewhere
+        query_obstacles(box, 0.0); // the last try may have moved the list elsewhere
         run_events(config, state, box);
         if (BoxHands::limit_grip(config, state, box, start)) continue;
         commit(config, state, box);

@@ -72,7 +72,7 @@ private:
 
     BodyId body_;
     std::array<bool, 3> locked_{};
-    bool is_alone_ = false; // with stiff hands
+    bool is_alone_ = false; // stiff hands, nothing locked, and no other body or plane
     AxisOscillators oscillators_;
     Obstacles obstacles_;
     BoxHands hands_;
@@ -82,7 +82,7 @@ private:
     bool was_pushed_ = false;
     bool was_eventful_ = false;
     glm::dvec3 last_push_{0.0};  // N
-    PerAxis contact_momentum_{}; // m/s; where something began or ended
+    PerAxis contact_momentum_{}; // m/s; valid if something began or ended
 };
 
 extern template class OneBoxStepper<false>;

@@ -12,7 +12,7 @@ namespace hapnet::scene {
 // held up and the search ends; the more they overlap, the less, and hardly beyond `overlap_max`.
 inline constexpr double overlap_step = 0.01;
 inline constexpr double overlap_max = 0.5;
-inline constexpr double least_step = 0.05; // of the above
+inline constexpr double least_step = 0.05; // share of the overlap step that remains in any case
 inline constexpr double round_overlap_max = 0.9;
 // A gap counts if it is wider than the allowed overlap by at most this share of the next step.
 inline constexpr double near_share = 0.1;

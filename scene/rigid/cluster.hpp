@@ -15,7 +15,7 @@ struct ClusterPart {
     const BodyProperties& properties;
     OrientedBox box;
     glm::dvec3 velocity{0.0};
-    glm::dvec3 angular_momentum{0.0}; // about its centre
+    glm::dvec3 angular_momentum{0.0}; // about the body's centre
 };
 
 /// Movable bodies that stick together, as after an inelastic impact: of all the motions that one
@@ -43,16 +43,16 @@ public:
 
 private:
     double mass_ = 0.0;
-    glm::dvec3 weighed_{0.0}; // the centre times the mass
+    glm::dvec3 weighed_{0.0}; // sum over the parts of mass times centre
     glm::dvec3 momentum_{0.0};
     glm::dvec3 angular_momentum_{0.0}; // about the centre
     glm::dmat3 inertia_{0.0};
-    glm::dvec3 free_{1.0};  // 0 along what is locked
-    glm::dvec3 turns_{1.0}; // 0 about what is locked
+    glm::dvec3 free_{1.0};  // 0 along locked axes, else 1
+    glm::dvec3 turns_{1.0}; // 0 about axes that the cluster does not turn about, else 1
     glm::dvec3 velocity_{0.0};
     glm::dvec3 spin_{0.0};
     std::uint32_t walls_ = 0;
-    glm::dvec3 wall_{0.0}; // the first one's normal
+    glm::dvec3 wall_{0.0}; // unit normal of the first wall, along the free axes
 };
 
 } // namespace hapnet::scene

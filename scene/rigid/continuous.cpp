@@ -231,7 +231,7 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
         flight.velocity = bodies.velocity.at(slot);
         flight.spin = bodies.angular_momentum.at(slot);
     }
-    if (slot >= bodies.awake) return flight; // asleep, or it is not moved
+    if (slot >= bodies.awake) return flight; // asleep or not movable: it has not moved yet
     const Departure& departure = departures_[slot];
     flight.velocity = scales_.rate * (flight.centre - departure.beginning.position);
     if (properties.turning != Turning::locked) {

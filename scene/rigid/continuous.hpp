@@ -46,14 +46,14 @@ public:
     struct Surroundings {
         const WorldConfig& config;
         WorldState& state;
-        const Kinematics& kinematics; // still where they began, with their mean velocities
+        const Kinematics& kinematics; // bodies are still at their start, with their mean velocities
     };
     /// Corrects what went through something. Sleepers that are hit move on at once; woken() says
     /// which, to be woken.
     template <BroadPhase search>
     void solve(const Surroundings& around, std::span<const Slot> active,
                const PairFinder<search>& pairs);
-    /// Looks at two bodies in a tick, at most; and in the last solve().
+    /// The greatest number of looks at two bodies in a tick, and the number in the last solve().
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
     [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
     /// True if the last solve() changed a body's velocity or its way.
@@ -65,13 +65,13 @@ public:
     }
     [[nodiscard]] std::span<const BodyId> woken() const { return woken_.all(); }
 
-    /// A body before the tick.
+    /// A body's state before the tick.
     struct Beginning {
         glm::dvec3 position{0.0};
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
         glm::dvec3 velocity{0.0};
         glm::dvec3 angular_momentum{0.0};
-        DrivenEnergy driven{}; // of kinematic bodies since then, in touches
+        DrivenEnergy driven{}; // work of kinematic bodies in touches since then
     };
     /// Returns the state of an awake body at begin(), or of a sleeper that the last solve()
     /// changed.
@@ -88,7 +88,7 @@ public:
             if (flyer.is_movable && flyer.has_changed) visit(bodies.slot_of[flyer.body]);
         }
     }
-    /// Calls visit(slot, slot) for every two movable bodies that pushed each other in it.
+    /// Calls visit(slot, slot) for every two movable bodies that pushed each other in solve().
     template <typename Visit>
     void for_pushes(const Bodies& bodies, Visit&& visit) const
     {
@@ -136,43 +136,43 @@ private:
         enum class Turn : std::uint8_t { free, steady, by_hands };
         Beginning beginning;
         Turn turn = Turn::free;
-        glm::dvec3 spin{0.0};         // when it is steady
-        glm::dvec3 acceleration{0.0}; // through the tick; 0 of a sleeper
+        glm::dvec3 spin{0.0};         // spin through the tick, if `turn` is steady
+        glm::dvec3 acceleration{0.0}; // through the tick; 0 for a sleeper
         BodyMotion start;
         FirstTouch first_touch;
         double least_near = 0.0; // m, see BodyIntegration
     };
-    /// A body that goes far, or that one such may meet.
+    /// A body that goes far, or that such a body may meet.
     struct Flyer {
         BodyId body = 0;
         bool is_movable = false;
         bool is_kinematic = false;
-        bool has_parts = false;       // then `flight` is that of a box around them
-        bool is_fast = false;         // others in its way are looked for
-        bool is_released = false;     // it goes on with its velocity at the end of the tick
-        bool has_stopped = false;     // for the rest of the tick
-        bool has_changed = false;     // it does not come to where it was put
-        FlyerIndex next_stuck = none; // of those that it is stuck to, in a ring; `none`: free
-        ClusterIndex cluster = none;  // with whose motion it goes on
-        bool is_newly_stuck = false;  // ... not yet
+        bool has_parts = false;       // `flight` is then that of a box around all parts
+        bool is_fast = false;         // others in its way are searched for
+        bool is_released = false;     // it moves with its velocity at the end of the tick
+        bool has_stopped = false;     // it stays where it is for the rest of the tick
+        bool has_changed = false;     // it does not end where the solver put it
+        FlyerIndex next_stuck = none; // next in a ring of bodies stuck together; `none`: free
+        ClusterIndex cluster = none;  // the cluster that it moves with
+        bool is_newly_stuck = false;  // stuck, but not yet moving with its cluster
         std::uint32_t touches = 0;
         MeetingIndex first = none;
-        double bend = HUGE_VAL; // s: when it goes on with that velocity at the latest
+        double bend = HUGE_VAL; // s: time at which it is released at the latest
         SteadyBox flight;       // time 0 is the start of the tick
         Roll roll;
-        Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // for others in its way
+        Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // already searched for others in its way
     };
-    /// Two that may touch: a flyer and another, or a plane.
+    /// Two things that may touch: a flyer and another flyer or a plane.
     struct Meeting {
         FlyerIndex a = 0;
         std::uint32_t b = 0;
-        PartId part_a = 0, part_b = 0; // where bodies have several parts
+        PartId part_a = 0, part_b = 0; // the parts, if the bodies have several
         bool is_plane = false;
         bool has_pushed = false;
-        bool is_over = false;  // they surely do not touch any more in this tick
-        bool is_sure = false;  // they touch at `time`
-        double time = 0.0;     // s: they surely do not touch until then
-        double gap = 0.0;      // m: at which they touch; an overlap
+        bool is_over = false;  // the two surely do not touch any more in this tick
+        bool is_sure = false;  // the two touch at `time`
+        double time = 0.0;     // s: the two surely do not touch before it
+        double gap = 0.0;      // m: gap at which they touch; < 0: an overlap
         double smallest = 0.0; // m: the smallest half edge of the two, or their roundings
         MeetingIndex next_of_a = none;
         MeetingIndex next_of_b = none;
@@ -237,11 +237,11 @@ private:
     Scratch<Flyer> flyers_;
     Scratch<Meeting> meetings_;
     Scratch<Cluster> clusters_;
-    std::vector<FlyerIndex> flyer_of_; // by id; `none` between ticks
+    std::vector<FlyerIndex> flyer_of_; // by BodyId; `none` between ticks
     Bounded<BodyId> woken_;
-    std::uint32_t steps_max_ = 0; // looks at two bodies in a tick
+    std::uint32_t steps_max_ = 0; // greatest number of looks at two bodies in a tick
     std::uint32_t steps_left_ = 0;
-    std::uint32_t steps_kept_ = 0; // of them for what sticks together
+    std::uint32_t steps_kept_ = 0; // looks kept for bodies that stick together
 };
 
 template <typename Visit>

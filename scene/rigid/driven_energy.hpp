@@ -20,7 +20,7 @@ namespace hapnet::scene {
 /// The work of kinematic bodies on a body in touches within a tick.
 struct DrivenEnergy {
     double energy = 0.0; // J
-    double speed = 0.0;  // m/s: of their surfaces there, at most
+    double speed = 0.0;  // m/s: greatest speed of the kinematic surfaces at the touches
 
     void add(const DrivenEnergy& other)
     {

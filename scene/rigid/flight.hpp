@@ -13,7 +13,7 @@ namespace hapnet::scene {
 /// The turn of a capsule about its own axis, which nothing that it meets can tell.
 struct Roll {
     double rate = 0.0;  // rad/s
-    double angle = 0.0; // rad, until `time`
+    double angle = 0.0; // rad: turned until `time`
     double time = 0.0;  // s
 
     void advance(double to)

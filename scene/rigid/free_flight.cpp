@@ -16,8 +16,8 @@ namespace {
 /// One coordinate of a parabola.
 struct ParabolaStep {
     double tick = 0.0;
-    double velocity_change = 0.0; // velocity
-    double displacement = 0.0;    // displacement
+    double velocity_change = 0.0;
+    double displacement = 0.0;
 };
 
 void integrate_axis(std::vector<double>& position, std::vector<double>& velocity, SlotRange range,

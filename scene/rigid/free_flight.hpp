@@ -45,7 +45,7 @@ public:
 private:
     double tick_;
     glm::dvec3 gravity_;
-    glm::dvec3 acceleration_{0.0}; // of all, when they are alike
+    glm::dvec3 acceleration_{0.0}; // of every movable body, if are_alike_
     bool are_alike_ = true;
 };
 

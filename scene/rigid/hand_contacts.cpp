@@ -61,7 +61,7 @@ void HandContacts::collide(const WorldConfig& config, WorldState& state, std::ui
     if (target.is_movable && state.hands[hand].gripping) {
         if (add_grip(config, state, hand, target)) return;
         const std::optional<Holding>& holding = hands_[hand].holding;
-        if (holding && holding->body == target.body) return; // by another part
+        if (holding && holding->body == target.body) return; // it holds another part
     }
     add_push(config, state, hand, target);
 }

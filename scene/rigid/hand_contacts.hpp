@@ -30,9 +30,9 @@ public:
     struct Spring {
         std::uint32_t hand = 0;
         BodyId body = 0;
-        glm::dvec3 impulse{0.0}; // on the body
-        PartId part = 0;         // of it
-        bool is_on_part = false; // of several
+        glm::dvec3 impulse{0.0}; // on the body, N s
+        PartId part = 0;         // the part that the hand pushes or holds
+        bool is_on_part = false; // the body has several parts
     };
 
     /// Starts a tick with no hand touching anything.
@@ -44,8 +44,8 @@ public:
         PartId part = 0;
         bool is_movable = false;
         const SweptBox& now;
-        glm::dvec3 velocity{0.0};           // of the body's centre
-        const Bodies* with_parts = nullptr; // those among which a body of several is
+        glm::dvec3 velocity{0.0};           // velocity of the body's centre
+        const Bodies* with_parts = nullptr; // all bodies, if this body has several parts; else null
 
         [[nodiscard]] const BodyPart* shape() const
         {
@@ -131,7 +131,7 @@ private:
     /// The memory of a body's part near a hand.
     struct NearBody {
         PartId part = 0;
-        bool is_current = false; // in this tick
+        bool is_current = false; // near the hand in this tick
         SphereBoxMemory memory;
         // A tick ago: the hand from the body's centre, and the body's axes.
         bool has_before = false;
@@ -142,7 +142,7 @@ private:
     struct Holding {
         BodyId body = 0;
         PartId part = 0;
-        glm::dvec3 at{0.0}; // in the part's frame
+        glm::dvec3 at{0.0}; // held point, in the part's frame
     };
     struct Hand {
         std::array<NearBody, touched_per_hand_max> nearby;
@@ -176,7 +176,7 @@ private:
     /// A hand's press on a surface at the start of a tick.
     struct Press {
         const HandDescription& hands;
-        glm::dvec3 velocity{0.0}; // of the hand over the surface where it touches
+        glm::dvec3 velocity{0.0}; // velocity of the hand over the surface where they touch
         double depth = 0.0;
         double closing = 0.0;
     };
@@ -209,12 +209,12 @@ private:
     double gravity_reach_; // twice the distance that a body falls in a tick from rest, metres
     Scratch<Spring> springs_;
     Scratch<HandSpring> forces_;  // in the order of springs_
-    Scratch<HandSpring> own_;     // of one body
-    Scratch<SpringImpulse> work_; // of one body
+    Scratch<HandSpring> own_;     // springs of one body
+    Scratch<SpringImpulse> work_; // impulses of the springs of one body
     PressingHands pressing_;
     HandProxies proxies_;
     Scratch<RubbedSpring> rubbed_;      // in the order of springs_, where there is friction
-    Scratch<FrictionSpring> frictions_; // of one body
+    Scratch<FrictionSpring> frictions_; // friction of the springs of one body
 };
 
 } // namespace hapnet::scene

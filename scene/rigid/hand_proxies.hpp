@@ -20,16 +20,16 @@ public:
     /// plane.
     struct Touch {
         std::uint32_t hand = 0;
-        std::uint32_t other = 0; // a part of a body, or planes_from and a plane's index on
+        std::uint32_t other = 0; // a PartId, or planes_from plus the index of a plane
         glm::dmat3 axes{1.0};
-        glm::dvec3 centre{0.0}; // of the hand's sphere
-        glm::dvec3 point{0.0};  // of the surface
+        glm::dvec3 centre{0.0}; // centre of the hand's sphere
+        glm::dvec3 point{0.0};  // touching point of the surface
         glm::dvec3 normal{0.0};
-        bool overlaps = false; // at the start of the tick
+        bool overlaps = false; // the hand overlaps the surface at the start of the tick
     };
     static constexpr std::uint32_t planes_from = bodies_max * (parts_max + 1);
 
-    /// Starts a tick without any; those that the last one had not are dropped.
+    /// Starts a tick: drops the proxies that the last tick did not use.
     void begin_step();
     /// The friction with which the tick begins.
     [[nodiscard]] FrictionSpring begin(const Touch& touch, const HandFriction& limits);
@@ -43,8 +43,8 @@ private:
         std::uint32_t other = 0;
         bool is_current = false;
         bool slides = false;
-        glm::dvec3 at{0.0};     // on the body, in its frame
-        glm::dvec3 offset{0.0}; // of the point of the sphere from its centre
+        glm::dvec3 at{0.0};     // point of the body, in the body's frame
+        glm::dvec3 offset{0.0}; // from the sphere's centre to the point of the sphere
     };
     [[nodiscard]] Proxy* find(const Touch& touch);
 

@@ -281,7 +281,7 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     const double other = -properties.mass * speed - held;
     const double braking = block.friction_limit() - other;
     if (!(braking > properties.mass * speed)) return;
-    const double share = properties.mass * speed / braking; // of the tick, until the stop
+    const double share = properties.mass * speed / braking; // share of the tick until the stop
     mean.velocity -= (0.5 * (1.0 - share)) * slip;
 }
 

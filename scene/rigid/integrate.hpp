@@ -18,36 +18,38 @@ namespace hapnet::scene {
 /// The first touch of a body that goes far in a tick, on the way that it began.
 struct FirstTouch {
     double time = std::numeric_limits<double>::infinity(); // s, within the tick
-    glm::dvec3 normal{0.0};                                // from it to the other
+    glm::dvec3 normal{0.0};                                // from the body to the other
     PartId other = 0;
     PartId own = 0;
 };
 
 /// One body's integration over a tick.
 struct BodyIntegration {
-    glm::dvec3 contact_impulse{0.0}; // of last tick's contacts, taken as constant forces
+    glm::dvec3 contact_impulse{0.0}; // last tick's contact impulses, taken as constant forces
     glm::dvec3 contact_angular_impulse{0.0};
     BodyMotion start;
-    BodyMotion predicted;                        // at the end, without what contacts change
-    BodyMotion mean;                             // over the tick, likewise
-    glm::dvec3 angular_momentum{0.0};            // at the end, likewise
-    BodyMotion start_after_bounces;              // at the start, as if it had bounced before
-    BodyMotion bounce_offset;                    // m, rad: where it would have to start then
+    // Without the changes that the solver makes in the contacts:
+    BodyMotion predicted;             // at the end of the tick
+    BodyMotion mean;                  // mean over the tick
+    glm::dvec3 angular_momentum{0.0}; // at the end of the tick
+
+    BodyMotion start_after_bounces;              // motion at the start plus what bounces changed
+    BodyMotion bounce_offset;                    // m, rad: shift of the start for that motion
     double last_bounce = 0.0;                    // s, from the start of the tick
-    glm::dvec3 bounce_angular_impulse{0.0};      // angular impulse of bounces
-    glm::dvec3 bounce_angular_impulse_mean{0.0}; // ... its mean over the tick
-    std::uint32_t friction_contacts = 0;         // contacts with friction that push
-    double drag = 0.0;                           // 1/s, on the plane that supports it
-    glm::dvec3 support_normal{0.0};              // its normal
-    FirstTouch first_touch;                      // of those met on its way
-    double least_near = 0.0; // m: the smallest half edge of it and what it may meet
-    DrivenEnergy driven{};   // of kinematic bodies, in contacts
+    glm::dvec3 bounce_angular_impulse{0.0};      // sum over the bounces
+    glm::dvec3 bounce_angular_impulse_mean{0.0}; // its mean over the tick
+    std::uint32_t friction_contacts = 0;         // number of contacts with friction that push
+    double drag = 0.0;                           // 1/s, by the plane that supports it
+    glm::dvec3 support_normal{0.0};              // normal of the plane with drag
+    FirstTouch first_touch;                      // first touch among the bodies on its way
+    double least_near = 0.0; // m: the smallest half edge of the body and of what it may meet
+    DrivenEnergy driven{};   // work of kinematic bodies in contacts
 
     // The body's place and energy before it moved: see IslandEnergy.
     glm::dvec3 start_position{0.0};
     glm::dquat start_orientation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 start_angular_momentum{0.0};
-    double start_energy = 0.0; // J, kinetic
+    double start_energy = 0.0; // J: kinetic energy
 
     // The place at the end of a body with hands on it.
     bool has_hands = false;
@@ -56,7 +58,7 @@ struct BodyIntegration {
     double own_work = 0.0;     // J: what hands gave it, less what drag took
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
-    BodyMotion mean_to_there; // the mean motion that goes there
+    BodyMotion mean_to_there; // mean motion that leads to that place
 };
 
 [[nodiscard]] BodyResponse response_of(const BodyProperties& properties, const glm::dmat3& axes);
@@ -77,7 +79,7 @@ struct HandForces {
     std::span<SpringImpulse> work;
     PressedModes& modes;
     const WorldConfig& config;
-    std::span<FrictionSpring> frictions{}; // empty: all are smooth
+    std::span<FrictionSpring> frictions{}; // empty: no spring has friction
 };
 
 /// Gravity, pushes and last tick's contact impulses, without hands: a parabola.
@@ -108,7 +110,7 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
 struct SlidingBody {
     const BodyIntegration& integration;
     const glm::dvec3& ground; // the velocity of what it slides on
-    bool is_second = true;    // of the contact
+    bool is_second = true;    // the body is the second of the contact
 };
 
 /// Stops a contact that ceases to slip within the tick at its moment. Until then friction has its

@@ -37,7 +37,7 @@ public:
     };
 
     /// Returns which bodies, by solver index, are in islands to which the velocities that the
-    /// solver found would give more than that; nothing when there are none.
+    /// solver found would give more than is allowed; nothing when there are none.
     [[nodiscard]] std::span<const std::uint8_t> gaining(const Tick& tick);
 
     /// Remembers what the active bodies have before they move.
@@ -49,24 +49,24 @@ private:
     /// Sums over an island, or a body's part of them.
     struct Account {
         double allowed = 0.0;   // J, without what kinematic bodies gave
-        DrivenEnergy driven{};  // that
+        DrivenEnergy driven{};  // energy that kinematic bodies gave
         double passed = 0.0;    // N s: the momentum that impulses left in the bodies
-        double motion = 0.0;    // N s: all that they have
-        double kinetic = 0.0;   // J, at the end
-        double there = 0.0;     // J, of all amounts
-        double rest = 0.0;      // J, of bodies at speeds that count as rest
-        bool is_held = false;   // by something fixed or kinematic, or along a locked axis
-        bool is_driven = false; // by something kinematic
-        bool is_near = false;   // something fixed or kinematic may have been in its way
+        double motion = 0.0;    // N s: sum of the sizes of the bodies' momenta
+        double kinetic = 0.0;   // J: kinetic energy at the end
+        double there = 0.0;     // J: sum of the sizes of the energies, for tolerances
+        double rest = 0.0;      // J: energy of bodies at speeds that count as rest
+        bool is_held = false;   // held by something fixed or kinematic, or along a locked axis
+        bool is_driven = false; // pushed by something kinematic
+        bool is_near = false;   // something fixed or kinematic may have been in the way
         bool has_hands = false;
-        bool can_turn = true;  // as a whole
-        double lifted = 0.0;   // J, out of overlaps
+        bool can_turn = true;  // the island can turn as a whole
+        double lifted = 0.0;   // J: energy of being lifted out of overlaps
         glm::dvec3 stray{0.0}; // kg m: how far the centre is from where its momentum leads
-        glm::dvec3 momentum{0.0}, moment{0.0}; // kg m/s; kg m, of the centre
+        glm::dvec3 momentum{0.0}, moment{0.0}; // kg m/s; kg m: sum of mass times place
         glm::dvec3 angular{0.0};               // kg m^2/s, about the origin of the world
         double mass = 0.0;
         glm::dmat3 inertia{0.0}; // kg m^2, about the centre
-        double share = 1.0;      // of the velocities beside those of the rigid body
+        double share = 1.0;      // share kept of the velocities beside those of the rigid body
         // Momenta at the start, where nothing but gravity acts from outside.
         glm::dvec3 momentum_before{0.0}, moment_before{0.0}, angular_before{0.0};
         bool is_closed = true;
@@ -74,7 +74,7 @@ private:
         glm::dvec3 centre{0.0}, velocity{0.0}, spin{0.0}, spin_due{0.0};
 
         void add(const Account& other);
-        /// J, with such a share of the velocities.
+        /// The energy that is allowed with a share of the velocities, J.
         [[nodiscard]] double allowed_at(double of_velocities) const
         {
             return allowed + driven.within(std::max(0.0, passed - (1.0 - of_velocities) * motion));
@@ -84,7 +84,7 @@ private:
     [[nodiscard]] static Account velocities_of(const Tick& tick, Slot slot);
     [[nodiscard]] static Account outcome_of(const Tick& tick, const ContinuousCollision* touches,
                                             Slot slot);
-    /// About the centre of an island.
+    /// Returns an island's angular momentum about its centre.
     [[nodiscard]] static glm::dvec3 about_centre(const Account& island);
     /// A body before it moved.
     struct Start {
@@ -109,7 +109,7 @@ private:
     Scratch<Account> accounts_;     // by solver index; then by the first body of an island
     Scratch<std::uint8_t> gaining_; // by solver index
     Islands islands_;
-    Bounded<Slot> slots_; // whose outcome is looked at
+    Bounded<Slot> slots_; // bodies whose outcome is looked at
 };
 
 } // namespace hapnet::scene

@@ -129,7 +129,7 @@ struct Arms {
 void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations)
 {
     const auto add = [&](SolverIndex body, SolverIndex by, const Arms& arms, const Wrench& push) {
-        if (is_nothing(push)) return; // its speed counts for nothing, too
+        if (is_nothing(push)) return; // then the speed of the surface does not count either
         const BodyMotion& start = integrations[body].start;
         const BodyMotion& end = solver.end_motion(body);
         const double taken =

@@ -17,7 +17,7 @@ struct KinematicTick {
     BodyMotion end;
     BodyMotion mean;
     BodyMotion change;         // from start to end, as far as that agrees with the mean
-    base::Position position{}; // at the end
+    base::Position position{}; // position at the end
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     bool moves = false;
 
@@ -45,7 +45,7 @@ public:
     {
         return ticks_[slot - bodies.movable];
     }
-    /// True if one goes so far in this tick that it could pass something.
+    /// True if a kinematic body goes so far in this tick that it could pass something.
     [[nodiscard]] bool any_far() const { return any_far_; }
 
 private:

@@ -16,9 +16,9 @@ namespace hapnet::scene {
 /// A face that a hand is in front of and amid. It stays so as long as the body does not turn
 /// and the hand comes no farther from where this was found: what was found then holds.
 struct AmidFace {
-    std::uint64_t turns = 0; // SweptBox::turns
-    glm::dvec3 offset{0.0};  // of the hand from the body's centre
-    double room = -1.0;      // along the face; < 0: not amid one
+    std::uint64_t turns = 0; // see SweptBox::turns
+    glm::dvec3 offset{0.0};  // from the body's centre to the hand
+    double room = -1.0;      // m: how far the hand may move; < 0: it is not amid a face
     glm::dvec3 normal{0.0};
     double half = 0.0; // from the body's centre to the face
 };
@@ -55,9 +55,9 @@ private:
     std::array<std::uint32_t, 2> hand_{};
     PressingSprings springs_;
     TwoVectors found_{};    // AmidFace::offset
-    Two room_{}, half_{};   // likewise
+    Two room_{}, half_{};   // AmidFace::room and AmidFace::half
     Two depth_{};           // in this tick
-    TwoVectors at_start_{}; // the force on the hand, likewise
+    TwoVectors at_start_{}; // N: force on each hand at the start of the tick
 };
 
 } // namespace hapnet::scene

@@ -20,15 +20,15 @@ constexpr double inactive_speed = 1e9;
 
 struct Impact {
     double time = 0.0;  // s, from the start of the tick
-    double speed = 0.0; // m/s, approaching
+    double speed = 0.0; // m/s: speed of approach
 };
 
 /// The motion of a contact's two bodies towards each other while none of its points hits.
 struct Approach {
-    ContactVector from;   // at the start of the tick, were the last bounces before it
-    ContactVector to;     // at its end
-    ContactVector offset; // m, rad: what those bounces were too late for
-    double begin = 0.0;   // s: the last of them
+    ContactVector from;   // at the start of the tick, as if the last bounces came before it
+    ContactVector to;     // at the end of the tick
+    ContactVector offset; // m, rad: shift of the start that makes up for the time of those bounces
+    double begin = 0.0;   // s: time of the last of these bounces
 
     /// The gap of a point at the start of the tick, on that path.
     [[nodiscard]] double separation(const ContactBlock& block, std::size_t point) const

@@ -50,7 +50,7 @@ private:
                std::span<const std::uint8_t> picked);
     void look(Bouncing& contact, const ContactBlock& block,
               std::span<const BodyIntegration> integrations) const;
-    /// Returns the share of it that gains no energy.
+    /// Makes a contact bounce. Returns the share of its impulse that gains no energy.
     static double bounce(ContactBlock& block, ContactSolver& solver,
                          std::span<BodyIntegration> integrations, const Scales& scales);
 

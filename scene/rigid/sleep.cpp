@@ -114,7 +114,7 @@ BodyId Sleep::sleeper_disturbed_by(const Bodies& bodies, const Pair& pair) const
 {
     const Slot a = bodies.slot_of[pair.a];
     const Slot b = bodies.slot_of[pair.b];
-    const Slot mover = std::min(a, b); // the awake come first, the fixed last
+    const Slot mover = std::min(a, b); // awake bodies come first, fixed ones last
     const Slot sleeper = std::max(a, b);
     if (sleeper < bodies.awake || sleeper >= bodies.movable || mover >= bodies.awake)
         return no_body;
@@ -159,7 +159,7 @@ bool Sleep::count_rest(const Bodies& bodies)
     for (Slot i = 0; i < bodies.awake; ++i) {
         if (rested_[i] == 1.0) motion_[i] = motion_of(bodies, i);
         if (rested_[i] < rest_ticks_) continue;
-        constexpr double still = 1e-12; // of what counts as rest
+        constexpr double still = 1e-12; // share of what counts as rest
         if (motion_of(bodies, i) > std::max(motion_[i], still))
             rested_[i] = 0.0;
         else

@@ -80,17 +80,17 @@ private:
     void swap(Slot a, Slot b);
 
     bool sleeping_;
-    double rest_ticks_;      // how long before it sleeps
+    double rest_ticks_;      // ticks at rest before a body falls asleep
     std::uint64_t interval_; // ticks between two looks at the islands
     // Values by slot, which move with their bodies.
     std::vector<double> speed2_;    // (m/s)^2: at rest up to this
-    std::vector<double> momentum2_; // (kg m^2/s)^2: likewise
+    std::vector<double> momentum2_; // (kg m^2/s)^2: at rest up to this
     std::vector<double> rested_;    // ticks at rest so far
-    std::vector<double> motion_;    // when these began, in shares of what counts as rest
+    std::vector<double> motion_;    // motion when that rest began, in shares of what counts as rest
 
     Islands islands_;
-    std::vector<double> island_rested_; // by the island's id: the least of its bodies
-    Bounded<BodyId> queue_;             // those going to wake, or to sleep
+    std::vector<double> island_rested_; // by the island's id: the least rested_ of its bodies
+    Bounded<BodyId> queue_;             // bodies about to wake or to fall asleep
 };
 
 } // namespace hapnet::scene

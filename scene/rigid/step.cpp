@@ -265,7 +265,7 @@ void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
     const Bodies& bodies = state.bodies;
     const std::size_t kinematic = bodies.moving - bodies.movable;
     solver_.begin(bodies.awake, kinematic);
-    integrations_.resize(bodies.awake + kinematic + 1); // [0] does not move: nobody writes it
+    integrations_.resize(bodies.awake + kinematic + 1); // [0]: does not move, never written
 }
 
 /// Starts the tick of an awake body that something acts on.
@@ -467,7 +467,7 @@ bool RigidStepper<broad_phase>::correct_positions(WorldState& state)
     for (ContactBlock& block : solver_.blocks()) {
         set_least_ways(block);
         if (!block.turns) continue;
-        for (double& part : block.centripetal_velocity) part *= 0.5; // of the mean over the tick
+        for (double& part : block.centripetal_velocity) part *= 0.5; // now the mean of the tick
     }
     const std::uint64_t visits = solver_.correct_positions(position_limits()).visits;
     state.tick_cost.visits += visits;

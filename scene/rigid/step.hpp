@@ -46,11 +46,11 @@ public:
 
     /// Counts of the work done, for tests and measurements.
     struct Counts {
-        std::uint64_t contacts_left_out = 0; // beyond the bound
-        std::uint64_t steady_ticks = 0;      // in which everything went on as before
-        std::uint32_t contacts = 0;          // of the last tick
-        std::uint32_t sweeps = 0;            // of the last tick
-        double change = 0.0;                 // m/s, of the last sweep
+        std::uint64_t contacts_left_out = 0; // contacts beyond the bound
+        std::uint64_t steady_ticks = 0;      // ticks in which everything went on as before
+        std::uint32_t contacts = 0;          // contacts of the last tick
+        std::uint32_t sweeps = 0;            // sweeps of the last tick
+        double change = 0.0;                 // m/s: change by the last sweep
     };
     [[nodiscard]] const Counts& counts() const { return counts_; }
     [[nodiscard]] const PairFinder<search>& pairs() const { return pairs_; }
@@ -106,13 +106,13 @@ private:
     PairFinder<search> pairs_;
     Sleep sleep_;
     HandContacts hand_contacts_;
-    Scratch<PressedModes> modes_; // of the body that a hand presses, by the first hand on it
+    Scratch<PressedModes> modes_; // by the first hand on the body that is pressed
     SweptBoxes boxes_;
     FreeBodies free_bodies_;
     ActiveBodies active_;
     Kinematics kinematics_;
-    Scratch<PlaneContact> plane_contacts_;  // of the pairs with planes, in their order
-    Scratch<BodyIntegration> integrations_; // by solver index; of the active bodies
+    Scratch<PlaneContact> plane_contacts_;  // in the order of the pairs with planes
+    Scratch<BodyIntegration> integrations_; // by solver index; of active and kinematic bodies
     ContactSolver solver_;
     Restitution restitution_;
     IslandEnergy energy_;
@@ -120,10 +120,10 @@ private:
     /// The results of the last tick for a tick in which everything goes on as before. All other
     /// results stay where the last tick left them.
     struct Steady {
-        bool is_possible = false; // in this scene
+        bool is_possible = false; // the scene allows steady ticks
         bool is_likely = false;   // the last tick was in balance
         BodyId body = 0;
-        std::uint64_t turns = 0; // SweptBox::turns
+        std::uint64_t turns = 0; // see SweptBox::turns
         BodyDynamics dynamics;
     };
     Steady steady_;

@@ -78,7 +78,7 @@ bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldS
     return contact.prepare_again(solver_.blocks()[0], pair.memory);
 }
 
-/// False when it has to begin again: then nothing has been done but what step() does anew.
+/// False when it has to begin again: then nothing has been done but what step() does again.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldState& state)
 {

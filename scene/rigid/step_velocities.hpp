@@ -33,7 +33,7 @@ void RigidStepper<broad_phase>::integrate_hand_springs(const WorldConfig& config
     const auto springs_of_all = hand_contacts_.springs();
     for (std::size_t i = 0; i < springs_of_all.size(); ++i) {
         const HandContacts::Spring& spring = springs_of_all[i];
-        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // done with that
+        if (i > 0 && spring.body == springs_of_all[i - 1].body) continue; // that body is done
         const Slot slot = state.bodies.slot_of[spring.body];
         activate(state.bodies, slot);
         if (!integrations_[slot + 1].has_hands) integrate_hand_springs_on(config, state, spring);

@@ -14,8 +14,8 @@ namespace {
 /// An impulse, and what it does.
 struct Answer {
     ContactVector impulse{};
-    double share = 1.0; // of it that gains no energy
-    bool parts = false; // no point approaches any more
+    double share = 1.0; // share of the impulse that gains no energy
+    bool parts = false; // true if no point approaches any more
 };
 
 Answer answer_of(ContactBlock& block, const ContactVector& before)
@@ -26,7 +26,7 @@ Answer answer_of(ContactBlock& block, const ContactVector& before)
     for (std::size_t i = 0; i < after.size(); ++i) after[i] += before[i];
     answer.share = energy_of(block, answer.impulse, before).share_within(0.0);
     double slowest = 0.0;
-    double fastest = 0.0; // that approached
+    double fastest = 0.0; // greatest speed of approach before the impulse
     for (std::size_t i = 0; i < block.count; ++i) {
         slowest = std::min(slowest, block.normal_speed(after, i));
         fastest = std::max(fastest, -block.normal_speed(before, i));

@@ -21,7 +21,7 @@ struct Toucher {
 [[nodiscard]] ContactVector touch_impulse(ContactBlock& block, const Toucher& a, const Toucher& b,
                                           double bounces_from);
 
-/// Adds it to a body's velocity and angular momentum.
+/// Adds an impulse to a body's velocity and angular momentum.
 void apply_impulse(Bodies& bodies, Slot slot, const Wrench& push, const glm::dvec3& arm);
 
 } // namespace hapnet::scene

@@ -44,10 +44,10 @@ private:
 
     std::size_t size_max_;
     std::size_t size_ = 0;
-    std::size_t seen_ = 0; // results since the beginning
+    std::size_t seen_ = 0; // number of results since begin()
     std::vector<double> last_step_, last_result_;
-    std::vector<double> steps_, results_; // changes from one to the next, a column each
-    Square<depth> products_{};            // of the columns of steps_
+    std::vector<double> steps_, results_; // changes from one iteration to the next, a column each
+    Square<depth> products_{};            // scalar products of the columns of steps_
 };
 
 } // namespace hapnet::scene

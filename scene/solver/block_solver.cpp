@@ -200,9 +200,9 @@ private:
     [[nodiscard]] Friction within_limit(Friction f);
 
     ContactBlock& block_;
-    ContactVector modal_; // the answer
+    ContactVector modal_; // modal impulses of the answer
     ContactVector free_;
-    ContactVector now_;     // with the answer
+    ContactVector now_;     // velocity with the answer
     ContactVector given_{}; // see set_given()
     ContactImpulse answer_;
     bool is_at_limit_ = false;
@@ -218,7 +218,7 @@ PointSet Trial::pushing(double tolerance) const
         const auto has_to = static_cast<std::uint32_t>(speed < -tolerance);
         bits |= (pushes | has_to) << i;
     }
-    return PointSet::of(bits & ((1U << block_.count) - 1U)); // what is beyond is no point
+    return PointSet::of(bits & ((1U << block_.count) - 1U)); // bits beyond `count` are no points
 }
 
 PointSet Trial::without_pulling(const PointSet& set) const
@@ -232,7 +232,7 @@ PointSet Trial::without_pulling(const PointSet& set) const
 void Trial::set_normals()
 {
     modal_[0] = modal_[1] = modal_[2] = 0.0;
-    for (std::size_t i = 0; i < manifold_points_max; ++i) { // those that do not push add nothing
+    for (std::size_t i = 0; i < manifold_points_max; ++i) { // points that do not push add nothing
         modal_[0] += answer_.normal[i];
         modal_[1] += block_.along_2[i] * answer_.normal[i];
         modal_[2] -= block_.along_1[i] * answer_.normal[i];
@@ -328,7 +328,7 @@ void Trial::hold_points(const PointSet& set)
 bool Trial::stick(double tolerance)
 {
     PointSet set = pushing(tolerance);
-    for (;;) { // at most once for each point, and once without any
+    for (;;) { // at most once for each point, and once without points
         hold_points<true>(set);
         // A contact that would have to pull to stick may still have to push to slip.
         if (set.count == 0) return opens(tolerance);
@@ -404,7 +404,7 @@ double Trial::slip_once(double step)
 bool Trial::slip(double tolerance, int rounds_max)
 {
     const double step = slip_step(block_);
-    constexpr double settled = 1e-14; // of the impulses: rounding
+    constexpr double settled = 1e-14; // share of the impulses: rounding
     push(tolerance);
     bool reached = false;
     for (int round = 0; round < rounds_max; ++round) {

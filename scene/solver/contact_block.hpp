@@ -59,15 +59,15 @@ struct Wrench {
 
 /// Factors of a block that may be needed again: valid as long as its matrix is.
 struct BlockFactors {
-    Ldl<6> whole{}; // of the matrix: three or four points, and friction
+    Ldl<6> whole{}; // factors of the whole matrix: three or four points, and friction
     // For sets of one, of two, of three, of four points, the one that was met last: which, in bits,
     // or 0 for none; factors for it and friction, or its plane.
     std::array<std::uint32_t, manifold_points_max> sets{};
     std::array<Ldl<5>, 2> few{};
     std::array<PlaneFit, 2> fits{};
     bool has_whole = false;
-    bool slipped = false;   // when last looked at
-    double slip_step = 0.0; // of friction over the slip; 0: not known
+    bool slipped = false;   // the contact slipped when it was last solved
+    double slip_step = 0.0; // step of friction per slip; 0: not known
 };
 
 /// One manifold to be solved as a whole: up to four points that push, and friction as one vector
@@ -77,28 +77,27 @@ struct ContactBlock {
     SolverIndex b = 0;
     std::uint32_t count = 0;
     double friction = 0.0;
-    double size = 0.0;        // m: the smallest half edge of the two
+    double size = 0.0;        // m: the smallest half edge of the two bodies
     double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
     glm::dvec3 arm_a{0.0}, arm_b{0.0};         // from the centres to the anchor
-    double rounding_a = 0.0, rounding_b = 0.0; // of round bodies: how far their cores are from it
+    double rounding_a = 0.0, rounding_b = 0.0; // from the anchor to the cores of round bodies
     std::array<double, manifold_points_max> along_1{}, along_2{}; // the points from the anchor
     std::array<double, manifold_points_max> separation{};
     std::array<double, manifold_points_max> speed_min{}; // the least normal speed of each point
     std::array<std::uint32_t, manifold_points_max> feature{};
     ContactImpulse impulse;
-    std::array<double, manifold_points_max>
-        start_impulse{}; // the normal impulses that it started from
-    Wrench start_push{}; // all of the impulses that it started from
+    std::array<double, manifold_points_max> start_impulse{}; // normal impulses at the start
+    Wrench start_push{};                                     // all impulses at the start
     double restitution = 0.0;
-    double locked_load = 0.0;        // N s, what a lock bears of the load; friction counts it
+    double locked_load = 0.0;        // N s: part of the load that a lock bears; friction counts it
     double bounce_impulse = 0.0;     // N s, along the normal, of this tick
-    ContactMemory* memory = nullptr; // of this tick; where the impulses are kept
-    ContactVector
-        centripetal_velocity{}; // m/s, what turning adds to its velocity by the end of the tick
-    bool turns = false;         // whether it adds anything
-    bool is_on_plane = false;   // its normal never changes
-    double change = 0.0;        // m/s, what the last sweep changed in its speeds
+    ContactMemory* memory = nullptr; // where the impulses of this tick are kept
+    /// The velocity that turning adds to that of the contact by the end of the tick, m/s.
+    ContactVector centripetal_velocity{};
+    bool turns = false;       // true if centripetal_velocity adds anything
+    bool is_on_plane = false; // contact with a plane: its normal never changes
+    double change = 0.0;      // m/s: change of the contact's speeds by the last sweep
 
     bool has_matrix = false;
     Square<6> matrix{}; // from modal impulses to modal velocities

@@ -17,19 +17,19 @@ namespace hapnet::scene {
 /// The limits at which the solver stops.
 struct SolverLimits {
     double tolerance = 0.0;       // m/s: a contact that misses by less is left alone
-    double converged = 0.0;       // m/s: when no contact changed its speed by more, that was it
-    std::uint32_t sweeps_max = 1; // over an island
-    std::uint32_t sweeps_min = 1; // made of any island: the first, then to and fro
-    std::uint32_t visits_max =
-        std::numeric_limits<std::uint32_t>::max(); // over all islands, beyond the least sweeps
+    double converged = 0.0;       // m/s: finished when no contact changes its speed by more
+    std::uint32_t sweeps_max = 1; // most sweeps over an island
+    std::uint32_t sweeps_min = 1; // every island may make them: the first, then to and fro
+    /// Most visits over all islands. An island gets its least sweeps even beyond them.
+    std::uint32_t visits_max = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// The effort of a solve, and the change of its last sweep.
 struct SolverOutcome {
-    std::uint32_t sweeps = 0; // of the island that needed most
-    double change = 0.0;      // m/s, of the last sweep: the largest of a contact's speed
-    bool in_balance = true;   // from the start: no impulse had to change
-    std::uint64_t visits = 0; // of contacts
+    std::uint32_t sweeps = 0; // sweeps of the island that needed most
+    double change = 0.0;      // m/s: largest change of a contact's speed in the last sweep
+    bool in_balance = true;   // in balance from the start: no impulse had to change
+    std::uint64_t visits = 0; // visits to contacts
 };
 
 /// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
@@ -45,7 +45,7 @@ public:
     /// move by themselves: their responses have to be zero.
     void begin(std::size_t bodies, std::size_t kinematic = 0);
 
-    /// True if impulses move it. A body that does not respond joins no bodies to an island.
+    /// True if impulses move the body. A body that does not respond joins no bodies to an island.
     [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
     /// Returns a body of the block that responds to impulses.
     [[nodiscard]] SolverIndex responding_of(const ContactBlock& block) const
@@ -71,7 +71,7 @@ public:
 
     /// Changes the impulses of the contacts and the velocities at the end of the tick.
     SolverOutcome solve_velocities(const SolverLimits& limits);
-    /// Once more, of the islands with `picked` bodies (1 at their solver index).
+    /// Solves the islands with `picked` bodies (1 at their solver index) once more.
     SolverOutcome solve_velocities_anew(const SolverLimits& limits,
                                         std::span<const std::uint8_t> picked);
     /// As solve_velocities(), for the mean velocities: without friction, and with impulses that
@@ -89,7 +89,7 @@ public:
         }
         return false;
     }
-    /// Once more, when bodies answer otherwise.
+    /// Corrects the positions once more, after the responses of bodies have changed.
     SolverOutcome correct_positions_again(const SolverLimits& limits);
     /// Solves one block for given velocities, which stay as they are; returns the impulse.
     ContactVector solve_alone(ContactBlock& block, const ContactVector& velocity, double tolerance);
@@ -132,7 +132,7 @@ private:
     [[nodiscard]] bool is_alone(const ContactBlock& block) const;
     void find_islands();
 
-    SolverIndex responding_ = 0; // bodies; those after them move by themselves
+    SolverIndex responding_ = 0; // number of bodies that respond; later ones move by themselves
     Scratch<BodyResponse> responses_;
     Scratch<BodyMotion> end_motions_;
     Scratch<BodyMotion> mean_motions_;
@@ -140,14 +140,14 @@ private:
     std::size_t bodies_max_;
     std::size_t blocks_max_;
 
-    Scratch<std::uint32_t> contacts_; // of each body
+    Scratch<std::uint32_t> contacts_; // number of contacts of each body
 
     // By solver index; then the blocks in the order of their islands, and where each ends.
     Islands islands_;
     Scratch<std::uint32_t> starts_;
     Scratch<std::uint32_t> order_;
     Scratch<double> before_, after_, good_; // impulses of an island
-    Scratch<BodyMotion> saved_;             // of its bodies
+    Scratch<BodyMotion> saved_;             // motions of the island's bodies
     Anderson anderson_;
     HeldIsland held_;
 };

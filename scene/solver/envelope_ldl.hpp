@@ -68,8 +68,8 @@ public:
 private:
     Scratch<std::uint32_t> first_;
     Scratch<std::uint32_t> begins_;
-    Scratch<double> entries_; // of the matrix, then of L
-    Scratch<double> inverse_; // of D; 0 for a row that is left out
+    Scratch<double> entries_; // entries of the matrix, then of L
+    Scratch<double> inverse_; // inverse of D; 0 for a row that is left out
     Scratch<double> scaled_;  // a row of L D
     std::uint32_t size_ = 0;
 };

@@ -86,7 +86,7 @@ HeldIsland::HeldIsland(std::size_t bodies, std::size_t blocks)
 bool HeldIsland::begin(const Task& task)
 {
     constexpr std::uint32_t none = ~0U;
-    constexpr double surely = 1.0 - 1e-9; // what slips is at its limit, but for rounding
+    constexpr double surely = 1.0 - 1e-9; // a contact that slips is at its limit, up to rounding
     std::size_t work = 0;
     if (task.island.size() > blocks_held_max) return false;
     holding_.clear();

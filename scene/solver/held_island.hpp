@@ -22,7 +22,7 @@ public:
 
     /// The problem to solve: an island's blocks, and the responses and motions of their bodies.
     struct Task {
-        std::span<ContactBlock> blocks; // of the whole scene
+        std::span<ContactBlock> blocks; // all blocks of the scene
         std::span<const std::uint32_t> island;
         std::span<const BodyResponse> responses;
         std::span<const BodyMotion> motions;
@@ -45,12 +45,12 @@ private:
     /// A block that pushes.
     struct Holding {
         std::uint32_t block = 0;
-        std::uint32_t row = 0; // its first
-        PlaneFit fit{};        // through the points that push
+        std::uint32_t row = 0; // first row of the block in the equations
+        PlaneFit fit{};        // plane fit through the points that push
     };
 
     Scratch<Holding> holding_;
-    Scratch<std::uint32_t> first_of_body_; // the first of holding_ that is on it
+    Scratch<std::uint32_t> first_of_body_; // by body: first row of the first block on it
     EnvelopeLdl factors_;
     Scratch<double> answer_;
     Scratch<ContactImpulse> impulses_;

@@ -25,7 +25,7 @@ public:
         const Body other = root_of(b);
         parents_[std::max(one, other)] = std::min(one, other);
     }
-    /// The lowest number of its island.
+    /// The lowest number of the body's island.
     [[nodiscard]] Body root_of(Body body)
     {
         while (parents_[body] != body) {

@@ -65,7 +65,7 @@ inline void PlaneContact::set_heights(ContactBlock& block) const
     block.separation = separation_;
     // Midway between the two surfaces.
     block.arm_b = pressure_.across + (0.5 * (pressure_.rise - height_)) * corners_.normal;
-    block.arm_a = block.arm_b; // of a plane, which does not move
+    block.arm_a = block.arm_b; // for the plane, which does not move
 }
 
 void PlaneContact::renew(const BoxOverPlane& box)

@@ -13,12 +13,12 @@ namespace hapnet::scene {
 
 /// The place of a box over a plane.
 struct BoxOverPlane {
-    std::uint32_t body = 0, plane = 0; // which: their sizes and the normal never change
+    std::uint32_t body = 0, plane = 0; // indices; sizes and normal never change
     const glm::dvec3& normal;
-    double height = 0.0; // of the box's centre, m
-    double margin = 0.0; // corners up to so high are looked at, m
+    double height = 0.0; // height of the box's centre, m
+    double margin = 0.0; // m: corners up to this height are looked at
     const glm::dmat3& axes;
-    const glm::dquat& orientation; // that the axes are of
+    const glm::dquat& orientation; // the orientation that has these `axes`
     const glm::dvec3& half;
     double rounding = 0.0; // see OrientedBox
 };
@@ -56,14 +56,14 @@ private:
     /// Geometry that follows from the corners and from last tick's impulses. The points that touch
     /// come first.
     struct Pressure {
-        std::uint32_t touching = 0; // in bits; 0: not found yet
+        std::uint32_t touching = 0; // touching points, one bit each; 0: not found yet
         std::uint32_t count = 0;
         ContactMemory memory{};
-        Each<double> along_1{}, along_2{}; // from the pressure's centre
+        Each<double> along_1{}, along_2{}; // places from the pressure's centre
         Each<std::uint32_t> feature{};
         double torsion_arm = 0.0;
         glm::dvec3 across{0.0}; // from the box's centre to the pressure's, along the plane
-        double rise = 0.0;      // of the pressure's centre
+        double rise = 0.0;      // height of the pressure's centre over the box's centre
         ContactImpulse impulse{};
         Wrench push{};
     };

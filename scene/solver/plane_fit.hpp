@@ -16,7 +16,7 @@ using PointNumbers = std::array<double, manifold_points_max>;
 struct PointSet {
     std::array<std::uint8_t, manifold_points_max> at{};
     std::uint16_t count = 0;
-    std::uint16_t bits = 0; // one for each
+    std::uint16_t bits = 0; // one bit for each point
 
     constexpr void add(std::uint32_t point)
     {
@@ -124,11 +124,11 @@ private:
     }
 
     PointSet set_;
-    PointNumbers u_{}, v_{}; // of the set's points, from their middle
+    PointNumbers u_{}, v_{}; // places of the set's points, from their middle
     double share_ = 0.0;
     double middle_1_ = 0.0, middle_2_ = 0.0;
     double uu_ = 0.0, uv_ = 0.0, vv_ = 0.0, determinant_ = 0.0;
-    double u_by_u_ = 0.0, u_by_v_ = 0.0, v_by_v_ = 0.0; // the inverse: slopes by moments
+    double u_by_u_ = 0.0, u_by_v_ = 0.0, v_by_v_ = 0.0; // inverse matrix: slopes from moments
 };
 
 } // namespace hapnet::scene

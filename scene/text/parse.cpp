@@ -20,7 +20,7 @@ using base::Place;
 using base::Reading;
 using base::TableReader;
 
-constexpr std::size_t scene_bytes_max = 64U << 20U; // of the most bodies, each on its own
+constexpr std::size_t scene_bytes_max = 64U << 20U; // for the most bodies, each written alone
 
 /// Reads a density that is written instead of a mass.
 void read_density(TableReader& table, BodyDescription& body)

@@ -21,7 +21,7 @@ struct Event {
     Moment at;
     std::string kind; // "conditions", "peer", ...: docs/formats/live.md
     std::string text;
-    std::int64_t generation = 0; // 0: none
+    std::int64_t generation = 0; // generation of the conditions; 0: none
     std::vector<std::string> files{};
     nlohmann::ordered_json set = nullptr; // the settings that were asked for
 };

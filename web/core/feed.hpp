@@ -23,8 +23,8 @@ using Figures = std::map<std::string, double, std::less<>>;
 class Feed {
 public:
     struct Source {
-        std::uint16_t id = 0; // of a peer
-        std::string boot_id;  // clocks of one machine are one
+        std::uint16_t id = 0; // number of the peer
+        std::string boot_id;  // peers with the same boot share one clock
 
         friend bool operator==(const Source&, const Source&) = default;
     };
@@ -72,7 +72,7 @@ private:
     template <typename Frame>
     struct Newest {
         std::optional<Frame> frame;
-        bool is_new = false; // since the live frame before
+        bool is_new = false; // has come since the previous live frame
     };
     struct Pair {
         std::size_t a = 0;
@@ -82,7 +82,7 @@ private:
         double uncertainty_ms = unknown;
     };
 
-    [[nodiscard]] bool is_empty() const; // nothing is attached
+    [[nodiscard]] bool is_empty() const; // true if nothing is attached
     [[nodiscard]] std::string text_of(const std::vector<Pair>& pairs, double at_s,
                                       base::TimePoint now, bool is_again) const;
     [[nodiscard]] Pair pair_of(std::size_t a, std::size_t b) const;
@@ -93,11 +93,11 @@ private:
     void note_history(double at_s, const std::vector<Pair>& pairs);
 
     std::vector<Source> peers_;
-    std::vector<Newest<PeerFrame>> newest_; // as peers_
-    std::vector<Track> tracks_;             // as peers_
+    std::vector<Newest<PeerFrame>> newest_; // one for each of peers_
+    std::vector<Track> tracks_;             // one for each of peers_
     Newest<EmulatorFrame> emulator_;
     std::uint64_t moves_ = 0;
-    std::vector<std::string> known_paths_; // also while no emulator is attached
+    std::vector<std::string> known_paths_; // kept while no emulator is attached
     Figures figures_;
     History history_;
 };

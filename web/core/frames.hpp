@@ -29,9 +29,9 @@ struct PeerFrame {
         double uncertainty_ms = unknown;
     };
 
-    std::string text; // the line
+    std::string text; // the line that was parsed
     Sample cube;
-    double force_n = 0.0; // of the newest tick
+    double force_n = 0.0; // force at the newest tick
     double force_max_n = 0.0;
     double late_max_us = 0.0;
     double missed = 0.0;
@@ -63,7 +63,7 @@ struct EmulatorFrame {
     std::string text;
     std::uint64_t generation = 0;
     base::TimePoint at;
-    double elapsed_s = 0.0; // since its start
+    double elapsed_s = 0.0; // since the emulator's start
     std::vector<Path> paths;
 };
 

@@ -19,7 +19,7 @@ constexpr std::string_view posting = "POST";
 
 constexpr std::array routes{
     Route{"/", reading, true},    Route{"/a/", reading, true},     Route{"/metrics", reading, true},
-    Route{"/live", "GET", true}, // its first message brings the token
+    Route{"/live", "GET", true}, // the page's first message brings the token
     Route{"/f/", reading},        Route{"/api/state", reading},    Route{"/api/history", reading},
     Route{"/api/files", reading}, Route{"/api/emulator", posting}, Route{"/api/stage", posting},
     Route{"/api/pace", posting},  Route{"/api/trap", posting},     Route{"/api/keep", posting},
@@ -125,7 +125,7 @@ bool Gate::is_own(std::string_view authority) const
 bool Gate::is_own_origin(std::string_view origin) const
 {
     constexpr std::string_view scheme = "http://";
-    constexpr std::string_view sealed = "https://"; // a proxy in front may speak it
+    constexpr std::string_view sealed = "https://"; // a proxy in front may use it
     if (origin.starts_with(scheme)) return is_own(origin.substr(scheme.size()));
     return origin.starts_with(sealed) &&
            std::ranges::any_of(setup_.hosts, [&](const std::string& host) {

@@ -20,14 +20,14 @@ struct Asked {
     std::optional<std::string_view> fetch_site{}; // Sec-Fetch-Site
     std::optional<std::string_view> content_type{};
     std::optional<std::string_view> token{}; // X-Hapnet-Token
-    bool is_upgrade = false;                 // to a WebSocket
+    bool is_upgrade = false;                 // asks to become a WebSocket
 };
 
 /// The reason why a request is not let in.
 struct Refusal {
     int status = 403;
     std::string error;        // a sentence for a person
-    std::string_view allow{}; // of 405: the methods that work
+    std::string_view allow{}; // for status 405: the methods that work
 };
 
 /// Decides who may ask for what: docs/use/web.md. The page's address is known to the user's
@@ -58,9 +58,9 @@ private:
 
 /// A path of the server, with its methods, and whether it needs the token.
 struct Route {
-    std::string_view path;    // one that ends with '/' stands for all below
+    std::string_view path;    // a path that ends with '/' includes all below it
     std::string_view methods; // "GET, HEAD"
-    bool is_open = false;     // without a token
+    bool is_open = false;     // needs no token
 };
 
 /// nullptr: there is no such path. `target` may have a query.

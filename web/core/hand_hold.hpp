@@ -39,8 +39,8 @@ public:
 
     enum class Answer : std::uint8_t {
         taken,    // the page holds the hand from now on; its place counts
-        moved,    // its place counts
-        too_soon, // nothing happens
+        moved,    // the page's place counts
+        too_soon, // the place is ignored
         let_go,   // no page holds it any more
         watches,  // another page holds it
     };

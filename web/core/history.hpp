@@ -37,18 +37,18 @@ private:
     struct Extremes {
         std::vector<float> least;
         std::vector<float> greatest;
-        double at_s = 0.0; // of the first row
+        double at_s = 0.0; // time of the first row in it
     };
 
     std::vector<std::string> columns_;
     struct Row {
         double at_s = 0.0;
-        std::vector<float> values; // of the other columns
+        std::vector<float> values; // values of all columns but the time
     };
     std::deque<Row> rows_;
     std::deque<Extremes> coarse_;
     Extremes growing_;
-    std::size_t grown_ = 0; // rows in it
+    std::size_t grown_ = 0; // rows in growing_
 };
 
 } // namespace hapnet::web

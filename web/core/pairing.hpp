@@ -42,7 +42,7 @@ private:
 
 /// The positions of two bodies at one time.
 struct Apart {
-    base::TimePoint at; // on the clock of the first
+    base::TimePoint at; // time on the clock of the first body's peer
     glm::dvec3 a{0.0};
     glm::dvec3 b{0.0};
 

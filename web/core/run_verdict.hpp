@@ -11,13 +11,13 @@ namespace hapnet::web {
 /// The statistics that a program of a run wrote at its end.
 struct ProgramStatistics {
     std::string name; // as people call it: "A", "the emulator"
-    std::string text; // of the file; empty: it wrote none
+    std::string text; // contents of its file; empty: it wrote none
 };
 
 /// The verdict on a run of the stage: valid, or the reasons why it is not.
 struct RunVerdict {
     int run = 0;
-    std::vector<std::string> because; // it is not valid; empty: it is
+    std::vector<std::string> because; // why the run is not valid; empty: it is valid
 
     /// {"run":3,"valid":true,"invalid_because":[]}
     [[nodiscard]] nlohmann::ordered_json json() const;

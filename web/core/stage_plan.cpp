@@ -15,11 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t virtual_seed_max = 1'000'000'000; // of an experiment
-constexpr int lab_others_max = 2;                        // beside the chosen algorithm
+constexpr std::int64_t virtual_seed_max = 1'000'000'000; // limit for an experiment
+constexpr int lab_others_max = 2;                        // algorithms beside the chosen one
 constexpr const char* own_scene = "task";
-constexpr const char* held_for = "20s";                        // as much as a trap may ask for
-constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // that JavaScript counts exactly
+constexpr const char* held_for = "20s"; // the longest time that a trap may ask for
+constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // exact in JavaScript
 
 /// Reads the members of a request onto a choice; the first trouble is remembered.
 class ChoiceReader {
@@ -167,7 +167,7 @@ std::string about_profile(std::string_view text)
     }
     for (auto end = words.find(". "); end != std::string::npos; end = words.find(". ", end + 1)) {
         const char next = words[end + 2];
-        if (next < 'A' || next > 'Z') continue; // "Fig. 6a"
+        if (next < 'A' || next > 'Z') continue; // "Fig. 6a": not the end of a sentence
         words.resize(end + 1);
         break;
     }

@@ -21,7 +21,7 @@ struct Choice {
     std::string algorithm = "base";
     std::string scene = "task"; // the task's own, or a built-in scene
     std::string preset = "paper-delay-160";
-    std::string device = "simulated"; // of A; that of others is simulated
+    std::string device = "simulated"; // device of A; other peers simulate theirs
     int peers = 2;
     int seconds = 30;
     std::int64_t seed = 1;
@@ -33,7 +33,7 @@ struct Choice {
 
 /// A choice to start from, and what there is to see in it.
 struct Story {
-    std::string name; // in requests
+    std::string name; // name in requests
     std::string title;
     std::string look; // a sentence: where to look, and what happens there
     Choice choice;
@@ -44,12 +44,12 @@ struct Story {
 /// The sets that a page may choose from. No other text of a page reaches a command line.
 struct Choices {
     std::vector<std::string> modes{"live", "virtual"};
-    std::vector<std::string> scenes; // first the one of the task
+    std::vector<std::string> scenes; // the task's own scene first
     std::vector<Story> stories;
     std::vector<std::string> tasks;
     std::vector<std::string> algorithms;
     std::vector<std::string> presets;
-    std::vector<std::string> devices{"simulated", "page"}; // of A
+    std::vector<std::string> devices{"simulated", "page"}; // devices for A
     int peers_min = 2;
     int peers_max = 8;
     int seconds_min = 5;
@@ -73,17 +73,17 @@ struct Choices {
 
 /// The folders of a run.
 struct StageFolders {
-    std::string programs; // where hapnet-emulator and hapnet-peer are
-    std::string sockets;  // of mode 0700
-    std::string results;  // of this run
-    std::string kept;     // for the last seconds that the daemons hold
+    std::string programs; // holds hapnet-emulator and hapnet-peer
+    std::string sockets;  // for control sockets; mode 0700
+    std::string results;  // for the results of this run
+    std::string kept;     // for the last seconds that the daemons keep in memory
 };
 
 /// The words of a command, the program first; and the control socket that it makes.
 struct Start {
     std::vector<std::string> words;
     std::string socket;
-    std::string log; // for what it says
+    std::string log; // file for its output
 };
 
 /// The emulator of a choice: one path of two peers, a link for every two of more.

@@ -11,9 +11,9 @@ namespace hapnet::web {
 
 /// The known state of an emulator.
 struct EmulatorState {
-    std::string socket; // empty: none is wanted
+    std::string socket; // empty: no emulator is wanted
     bool is_attached = false;
-    nlohmann::ordered_json shown = nullptr; // its last reply to show
+    nlohmann::ordered_json shown = nullptr; // last reply to the request `show`
     std::vector<std::string> paths{};
     std::string error{};
 
@@ -25,10 +25,10 @@ struct EmulatorState {
 struct PeerState {
     std::string socket;
     bool is_attached = false;
-    nlohmann::ordered_json shown = nullptr; // its last reply to show
-    nlohmann::ordered_json scene = nullptr; // its reply to scene
+    nlohmann::ordered_json shown = nullptr; // last reply to the request `show`
+    nlohmann::ordered_json scene = nullptr; // last reply to the request `scene`
     std::string error{};
-    bool shares_clock = false; // with the first of the peers
+    bool shares_clock = false; // has the same clock as the first peer
 
     /// 0: not known yet.
     [[nodiscard]] std::uint16_t id() const;

@@ -47,7 +47,7 @@ private:
     State state_ = State::disarmed;
     std::optional<base::Condition> when_;
     base::Duration last_ = last_usual;
-    std::optional<base::TimePoint> next_; // of the state after fired and resting
+    std::optional<base::TimePoint> next_; // end of the states fired and resting
     std::uint64_t fired_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace hapnet::web {
 /// A connection that counts toward the limit.
 struct Visitor {
     std::function<bool()> is_idle;
-    std::function<void()> close; // it makes room for another
+    std::function<void()> close; // called to make room for another visitor
 };
 
 class Visit;

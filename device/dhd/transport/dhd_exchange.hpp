@@ -27,7 +27,7 @@ private:
     Functions functions_;
     Id device_;
     Interpreter interpreter_;
-    std::optional<bool> motors_on_{}; // as the library was told last
+    std::optional<bool> motors_on_{}; // state that the library was told last; nullopt: none yet
 };
 
 } // namespace hapnet::device::dhd

@@ -19,7 +19,7 @@ namespace hapnet::device::dhd {
 namespace {
 
 constexpr std::array usual_names{"libdhd.so", "libdhd.so.3", "libdrd.so", "libdrd.so.3"};
-constexpr int devices_max = 16; // more than any program was seen with
+constexpr int devices_max = 16; // more than any known program uses
 
 Opened<Functions> load_functions(const std::string& file)
 {
@@ -95,7 +95,7 @@ std::vector<Found> find_dhds(const std::string& library)
     for (std::string& model : models_on_usb(UsbKind::force_dimension)) {
         found.push_back({identity_of("", std::move(model)), {}});
     }
-    if (found.empty() && library.empty()) return found; // nothing says that it is wanted
+    if (found.empty() && library.empty()) return found; // no sign of a device
     const auto functions = load_functions(library);
     if (found.empty()) found.push_back({identity_of("", "first device of libdhd"), {}});
     if (functions) return found;

@@ -20,7 +20,7 @@ namespace hapnet::device::falcon {
 
 namespace {
 
-constexpr std::uint8_t vendor_request = LIBUSB_REQUEST_TYPE_VENDOR; // to the device
+constexpr std::uint8_t vendor_request = LIBUSB_REQUEST_TYPE_VENDOR; // direction: to the device
 constexpr unsigned transfer_max_ms = 1000;
 
 using Context = std::unique_ptr<libusb_context, ClaimedUsb::Exit>;
@@ -83,7 +83,7 @@ std::vector<UsbDevice> falcons_of(libusb_context* context)
 /// Such as "usb-1-2.3": the bus, then the ports on the way.
 std::string port_of(libusb_device* device)
 {
-    constexpr int depth_max = 7; // USB 3.0
+    constexpr int depth_max = 7; // longest port path in USB 3.0
     std::array<std::uint8_t, depth_max> ports{};
     const int depth = libusb_get_port_numbers(device, ports.data(), depth_max);
     std::string name = fmt::format("usb-{}", libusb_get_bus_number(device));
@@ -110,7 +110,7 @@ std::string serial_of(libusb_device* device, libusb_device_handle* handle)
 
 struct Candidate {
     std::string serial;
-    Opened<Handle> handle; // or why it cannot be opened
+    Opened<Handle> handle; // the open handle, or why it cannot be opened
 };
 
 Candidate open_usb(libusb_device* device)

@@ -71,7 +71,7 @@ bool UsbLink::submit(libusb_transfer* transfer) noexcept
 void UsbLink::listen() noexcept
 {
     if (listening_ != Listening::idle || closes_) return;
-    listening_ = Listening::pending; // first: what it hears may be noted before submit() returns
+    listening_ = Listening::pending; // set first: the transfer may end before submit() returns
     if (!submit(in_.get())) listening_ = Listening::idle;
 }
 
@@ -79,7 +79,7 @@ bool UsbLink::send(const Packet& packet) noexcept
 {
     if (sends_) return false;
     put(packet, out_buffer_);
-    sends_ = true; // first, as above
+    sends_ = true; // set first: the transfer may end before submit() returns
     if (submit(out_.get())) return true;
     sends_ = false;
     return false;

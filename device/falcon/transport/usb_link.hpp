@@ -78,7 +78,7 @@ private:
     Buffer in_buffer_{};
     Buffer out_buffer_{};
     Buffer urgent_buffer_{};
-    std::array<std::byte, 4 * usb_packet_bytes> inbox_{}; // receive() collects so often at most
+    std::array<std::byte, 4 * usb_packet_bytes> inbox_{}; // receive() collects at most 4 times
     std::size_t inbox_size_ = 0;
     std::atomic<Listening> listening_{Listening::idle};
     std::atomic<bool> sends_{false};

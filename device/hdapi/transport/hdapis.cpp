@@ -112,7 +112,7 @@ std::vector<Found> find_hdapis(const std::string& library)
     for (std::string& model : models_on_usb(UsbKind::touch)) {
         if (found.empty()) found.push_back({identity_of("", std::move(model)), {}});
     }
-    if (found.empty() && library.empty()) return found; // nothing says that it is wanted
+    if (found.empty() && library.empty()) return found; // no sign of a device
     const auto functions = load_library(library);
     if (found.empty()) found.push_back({identity_of("", "default device of libHD"), {}});
     if (functions) return found;

@@ -65,7 +65,7 @@ Opened<std::vector<Opening>> Scheduler::open(const std::vector<std::string>& nam
 
 Opened<Opening> Scheduler::open_one(const std::string& name)
 {
-    std::ignore = first_error(functions_); // of earlier calls
+    std::ignore = first_error(functions_); // drops errors of earlier calls
     const Handle handle = functions_.init_device(name.empty() ? nullptr : name.c_str());
     const ErrorInfo error = first_error(functions_);
     if (handle == no_device || error.code != error::none) {
@@ -82,7 +82,7 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
                     .properties = properties_of_current(functions_)};
     functions_.disable(capability::force_output);  // until a governor asks for force
     functions_.enable(capability::force_clamping); // the library's own limit, behind ours
-    std::ignore = first_error(functions_);         // of what this model does not have
+    std::ignore = first_error(functions_); // drops errors about what this model does not have
     opening.client = std::make_shared<SchedulerClient>(
         DeviceCycle{functions_, handle, preferred_style(opening.properties.calibration_styles)});
     return opening;
@@ -93,7 +93,7 @@ void Scheduler::close(const Opening& opening)
     const std::lock_guard lock{mutex_};
     stop();
     give_back(opening);
-    std::ignore = start(); // the others; one that cannot go on falls silent and is found so
+    std::ignore = start(); // for the other devices; if it fails, they fall silent, which is noticed
 }
 
 void Scheduler::give_back(const Opening& opening)

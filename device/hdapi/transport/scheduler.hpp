@@ -16,7 +16,7 @@ namespace hapnet::device::hdapi {
 /// A device as the library opened it.
 struct Opening {
     std::shared_ptr<SchedulerClient> client;
-    std::string name; // as in the vendor's configuration, "" for the default one
+    std::string name; // as in the vendor's configuration; "": the default device
     std::string model;
     std::string serial;
     Properties properties;

@@ -67,7 +67,7 @@ void SchedulerClient::command(const Command& command)
 void SchedulerClient::pace(const std::function<bool()>& beat)
 {
     for (bool goes_on = true; goes_on && is_called();) {
-        goes_on = beat(); // throws: then it stays due, and no cycle waits for it again
+        goes_on = beat(); // if it throws, it stays due, and no cycle waits for it again
         {
             const std::lock_guard lock{mutex_};
             beat_ = Beat::none;

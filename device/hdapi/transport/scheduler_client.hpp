@@ -46,8 +46,8 @@ public:
 private:
     enum class Beat : std::uint8_t {
         none,
-        awaited, // the next cycle calls for one
-        due,     // called for, and not over
+        awaited, // the next cycle calls for a beat
+        due,     // a beat was called for and is not over
     };
 
     void call_for_a_beat();
@@ -59,7 +59,7 @@ private:
     std::atomic<bool> halted_{false};
     std::atomic<bool> hushed_{false};
     std::atomic<std::uint64_t> cycles_{0};
-    std::mutex mutex_; // of the two below
+    std::mutex mutex_; // guards beat_ and is_silent_
     Beat beat_ = Beat::none;
     bool is_silent_ = false;
     std::condition_variable changed_;

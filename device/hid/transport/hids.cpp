@@ -35,7 +35,7 @@ std::vector<RecognisedDevice> look_around()
     const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all{
         hid_enumerate(0, 0), &hid_free_enumeration};
     std::vector<RecognisedDevice> found;
-    std::vector<std::string> paths; // a device stands in the list once for each of its uses
+    std::vector<std::string> paths; // hid_enumerate() lists a device once for each of its usages
     for (const hid_device_info* one = all.get(); one != nullptr; one = one->next) {
         const std::string path = one->path;
         if (std::find(paths.begin(), paths.end(), path) != paths.end()) continue;
@@ -65,7 +65,7 @@ Opened<std::unique_ptr<Device>> open_pid(const RecognisedDevice& seen, const Opt
         .identity = identity_of(seen, options), .input = *seen.input, .options = options};
     const bool has_force = options.force_full_n && seen.force;
     std::optional<Claim> for_reader{std::move(claim)};
-    if (has_force) { // whoever sends holds the node to the last
+    if (has_force) { // the sender holds the claim on the node until its end
         auto wire = HidrawWire::open(seen.path, std::exchange(for_reader, std::nullopt));
         if (!wire) return tl::unexpected{wire.error()};
         const auto prepared = prepare(**wire, *seen.force, seen.input->axes.size());

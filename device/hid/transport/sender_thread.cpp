@@ -26,7 +26,7 @@ struct SenderThread::Shared {
             if (ends) break;
             wake_event.wait();
         }
-        wire.reset(); // the destructor's caller may open the device again
+        wire.reset(); // before done: the destructor's caller may open the device again
         done.release();
     }
 

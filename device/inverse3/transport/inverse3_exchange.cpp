@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr base::Duration answer_max = 10ms;
-constexpr int late_answers_max = 64; // more are left to the next exchange
+constexpr int late_answers_max = 64; // further late answers are left to the next exchange
 
 polled::Report fault(Fault what)
 {

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr net::WebSocketClient::Limits limits{.connect_max = 500ms,
                                               .message_bytes_max = message_bytes_max};
-constexpr base::Duration inventory_max = 500ms; // until the service says what there is
+constexpr base::Duration inventory_max = 500ms; // longest wait for the service's list of devices
 
 /// A connection, and the inventory with which the service begins it.
 struct Session {
@@ -88,7 +88,7 @@ std::vector<Found> find_inverse3s(std::uint16_t port)
 {
     std::vector<Found> found;
     const auto session = begin_session(port);
-    if (!session) return found; // nothing says that it is wanted
+    if (!session) return found; // no service answers: there is nothing to list
     for (const DeviceState& device : session->inventory.devices) {
         found.push_back({identity_of(device), reason_against(device)});
     }
@@ -107,7 +107,7 @@ Opened<std::unique_ptr<Device>> open_inverse3(const std::string& id, std::uint16
     }
     if (auto reason = reason_against(*device)) return tl::unexpected{*std::move(reason)};
     auto exchange = std::make_unique<Inverse3Exchange>(std::move(session->client), device->id);
-    std::ignore = exchange->tell({}); // from now on it is in use
+    std::ignore = exchange->tell({}); // from now on the device is in use
     return std::make_unique<PolledDevice>(std::move(exchange), identity_of(*device),
                                           capabilities());
 }

@@ -218,7 +218,8 @@ Opened<Channels> FirewireLink::start(const Channels& channels)
         done = check(make_context(sender_, FW_CDEV_ISO_CONTEXT_TRANSMIT, channels.to_device),
                      "sending");
     }
-    if (done && !send(HostPacket{})) done = check(EIO, "sending"); // it starts with what to send
+    // A packet must be queued before the start.
+    if (done && !send(HostPacket{})) done = check(EIO, "sending");
     if (done) done = check(sender_.control(FW_CDEV_IOC_START_ISO, &begin), "sending");
     if (!done) return tl::unexpected{done.error()};
     return channels;
@@ -228,7 +229,7 @@ int FirewireLink::make_context(Node& node, std::uint32_t type, std::uint8_t chan
 {
     fw_cdev_create_iso_context context{};
     context.type = type;
-    context.header_size = received_bytes; // of no meaning where it sends
+    context.header_size = received_bytes; // without meaning for sending
     context.channel = channel;
     context.speed = SCODE_100;
     return node.control(FW_CDEV_IOC_CREATE_ISO_CONTEXT, &context);
@@ -294,7 +295,7 @@ Arrival FirewireLink::receive(ReceivedPacket& packet) noexcept
     }
     const auto headers = headers_of(packets_);
     if (headers.size() < received_bytes) {
-        packets_.size = 0; // of a bus reset: of that the node has one, too
+        packets_.size = 0; // a bus reset, which node_ reports, too
         return Arrival::nothing;
     }
     at_ = headers_at;

@@ -47,13 +47,13 @@ private:
     [[nodiscard]] Arrival hear_of(const Node& node) noexcept;
     [[nodiscard]] Arrival next_of_event(ReceivedPacket& packet) noexcept;
 
-    Node node_; // registers, channels, bus resets
+    Node node_; // for registers, channels and bus resets
     Node sender_;
     Node receiver_;
-    Event event_;                 // the last one heard of any of them
-    Event packets_;               // the last one with packets; only the receiver's
-    std::uint64_t requests_ = 0;  // so far
-    std::size_t at_ = 0;          // so far it has been read
+    Event event_;                 // last event of node_ or sender_
+    Event packets_;               // last event of receiver_
+    std::uint64_t requests_ = 0;  // number of requests so far
+    std::size_t at_ = 0;          // place in packets_ up to which it was read
     std::atomic<int> sending_{0}; // packets on their way
 };
 

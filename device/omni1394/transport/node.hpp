@@ -49,7 +49,7 @@ public:
     [[nodiscard]] ReadOutcome read(Event& event, base::Duration within) const noexcept;
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    [[nodiscard]] std::uint32_t generation() const { return generation_; } // of the bus
+    [[nodiscard]] std::uint32_t generation() const { return generation_; } // generation of the bus
 
     void set_generation(std::uint32_t generation) { generation_ = generation; }
 

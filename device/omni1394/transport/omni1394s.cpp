@@ -104,7 +104,7 @@ Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Optio
     for (const BusNode& seen : look_around()) {
         const Found omni = found(seen);
         if (omni.unusable) {
-            why = *omni.unusable; // it may be the one that is meant: it did not say its serial
+            why = *omni.unusable; // its serial is unknown: it may be the one that is meant
             continue;
         }
         if (!serial.empty() && serial != omni.identity.serial && serial != seen.guid) continue;

@@ -12,8 +12,8 @@ namespace hapnet::device::omni1394 {
 
 /// Options of the FireWire Omnis.
 struct Options {
-    std::string profile{};           // a file as of device/omni1394/drive.hpp; "": none
-    bool uncalibrated_force = false; // a quarter of full scale without such a file
+    std::string profile{};           // file in the format of device/omni1394/drive.hpp; "": none
+    bool uncalibrated_force = false; // up to a quarter of full scale without measured torques
 };
 
 /// Finds all Omnis on the computer's buses. The serial is that printed on the device. Where the

@@ -14,14 +14,14 @@ namespace hapnet::device {
 struct InjectedFault {
     enum class Kind : std::uint8_t {
         dropped_reports,     // every other report is lost
-        stall,               // it is silent
-        unplug,              // it has gone, for good
+        stall,               // the device is silent
+        unplug,              // the device has gone for good
         encoder_jump,        // the waist's encoder is off by 500 counts
-        communication_error, // its reports make no sense
-        not_a_number,        // it breaks the promise of its interface: its positions are NaN
+        communication_error, // the device's reports make no sense
+        not_a_number,        // positions are NaN, which the interface does not permit
     };
     Kind kind;
-    base::Duration after; // the first read
+    base::Duration after; // time from the first read to the fault
     base::Duration lasts;
 };
 

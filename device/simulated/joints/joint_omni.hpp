@@ -40,7 +40,7 @@ public:
     /// Moves the hand by a script instead of the person: evenly to `place` within one second. It
     /// stays there.
     void lead_to(const base::Position& place);
-    /// ... and presses the buttons: one bit each.
+    /// Holds these buttons down from now on, one bit each.
     void press(std::uint8_t buttons) { pressed_ = buttons; }
     void set_injected_faults(InjectedFaults injected_faults)
     {
@@ -57,7 +57,7 @@ private:
     struct Walk {
         base::Position from;
         base::Position to;
-        std::optional<base::TimePoint> start; // nullopt: with the next read
+        std::optional<base::TimePoint> start; // nullopt: the walk starts with the next read
     };
     [[nodiscard]] Grip grip_at(base::TimePoint now, base::Duration elapsed);
     [[nodiscard]] base::Position walked(base::TimePoint now);
@@ -73,9 +73,9 @@ private:
     std::atomic<bool> halted_{false};
     std::optional<Walk> walk_;
     bool is_cued_ = false;
-    bool is_gripping_ = false; // the person's will
-    std::uint8_t pressed_ = 0; // a script's
-    base::Position intended_;  // at lived_to_
+    bool is_gripping_ = false; // the person intends to grip
+    std::uint8_t pressed_ = 0; // buttons that a script holds down
+    base::Position intended_;  // intended position at lived_to_
     std::uint64_t words_ = 0;
     std::optional<base::TimePoint> start_;
     std::optional<base::TimePoint> lived_to_;

@@ -17,14 +17,14 @@ namespace hapnet::device {
 struct JointPlantFigures {
     double tip_mass_kg = omni::tip_mass_kg;
     double tip_damping_ns_per_m = 0.2; // estimate
-    glm::dvec3 rotor_kg_m2{2e-5};      // of each motor at its joint: estimate
+    glm::dvec3 rotor_kg_m2{2e-5};      // inertia of each motor at its joint: estimate
     /// Coulomb friction at each joint: 0.26 N at the stylus in its direction, at the origin.
     glm::dvec3 friction_nm{omni::friction_n * omni::depth_m, omni::friction_n* omni::link_m,
                            omni::friction_n* omni::link_m};
     glm::dvec3 torque_max_nm = omni::torque_max_nm;
-    double dock_hold_n = 1.0;   // what it takes to pull the stylus out of its inkwell: estimate
-    double dock_reach_m = 4e-3; // from so near the inkwell takes it
-    bool begins_docked = true;  // else with the stylus at the origin
+    double dock_hold_n = 1.0;   // force that pulls the stylus out of its inkwell: estimate
+    double dock_reach_m = 4e-3; // distance at which the inkwell catches the stylus
+    bool begins_docked = true;  // false: the stylus begins at the origin
     /// The encoders' angles when the power came on.
     omni::Joints zero{{0.30, -0.20, 0.10}};
 };
@@ -53,12 +53,13 @@ public:
     void advance(base::Duration elapsed);
 
     [[nodiscard]] const omni::Joints& joints() const { return joints_; }
-    [[nodiscard]] const glm::dvec3& turning() const { return turning_; } // rad/s
+    [[nodiscard]] const glm::dvec3& turning() const { return turning_; } // joint velocities, rad/s
     [[nodiscard]] base::Position tip() const { return tip_; }
     [[nodiscard]] base::Velocity tip_velocity() const { return velocity_; }
     [[nodiscard]] bool is_docked() const { return is_docked_; }
     [[nodiscard]] omni::Counts counts() const { return omni::counts_at(joints_, figures_.zero); }
-    [[nodiscard]] const glm::dvec3& torque() const { return torque_; } // after saturation
+    /// The motor torques after saturation, N m.
+    [[nodiscard]] const glm::dvec3& torque() const { return torque_; }
     [[nodiscard]] const JointPlantFigures& figures() const { return figures_; }
 
     static constexpr base::Duration step_max{std::chrono::microseconds{50}};

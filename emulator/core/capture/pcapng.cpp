@@ -145,8 +145,8 @@ void put_v4_header(std::string& bytes, const CapturedPacket& packet)
     const auto start = bytes.size();
     put_net16(bytes, 0x4500U | packet.marks.traffic_class); // version 4, five words
     put_net16(bytes, v4_header_bytes + udp_header_bytes + packet.payload.size());
-    put_net16(bytes, 0);      // no identification needed (RFC 6864) ...
-    put_net16(bytes, 0x4000); // ... by what is not to be fragmented
+    put_net16(bytes, 0);      // no identification: the packet is atomic (RFC 6864)
+    put_net16(bytes, 0x4000); // do not fragment
     bytes += hop_limit_of(packet);
     bytes += udp_protocol;
     put_net16(bytes, 0);
@@ -218,10 +218,10 @@ void append_capture_head(std::string& bytes, std::string_view program,
 {
     {
         const Block block{bytes, section_header};
-        put(bytes, std::uint32_t{0x1a2b3c4d}); // tells the order of bytes
+        put(bytes, std::uint32_t{0x1a2b3c4d}); // magic number that tells the byte order
         put(bytes, std::uint16_t{1});          // version 1.0
         put(bytes, std::uint16_t{0});
-        put(bytes, ~std::uint64_t{0}); // as long as the file
+        put(bytes, ~std::uint64_t{0}); // section length: not stated
         put_option(bytes, user_application, program);
     }
     for (const CaptureNames& names : pairs) {

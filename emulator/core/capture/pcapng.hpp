@@ -36,9 +36,9 @@ struct CapturedPacket {
     UdpAddress from{};
     UdpAddress to{};
     std::span<const std::byte> payload{}; // at most payload_bytes_max
-    std::uint32_t pair = 0;               // of sides, where there are several
-    base::IpMarks marks{};                // hop limit 0: 64
-    bool is_ip = false; // the payload is the whole IP packet: no addresses and marks are needed
+    std::uint32_t pair = 0;               // number of the pair of sides, from 0
+    base::IpMarks marks{};                // a hop limit of 0 is written as 64
+    bool is_ip = false; // `payload` is a whole IP packet, with addresses and marks
 
     static constexpr std::size_t payload_bytes_max = 65'527; // over IPv6; 20 less over IPv4
 };

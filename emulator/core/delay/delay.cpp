@@ -12,7 +12,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-constexpr double u_min = 0x1p-54; // what stands for a drawn 0
+constexpr double u_min = 0x1p-54; // stands for a drawn 0
 constexpr double u_max = 1.0 - 0x1p-53;
 
 } // namespace

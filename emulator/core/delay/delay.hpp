@@ -105,7 +105,7 @@ public:
     /// direction is shown here once, in the order of their numbers. Does not allocate.
     [[nodiscard]] base::Duration on_packet(const Packet& packet)
     {
-        const auto* constant = std::get_if<ConstantLaw::Sampler>(&sampler_); // the most frequent
+        const auto* constant = std::get_if<ConstantLaw::Sampler>(&sampler_); // the fast path
         return constant != nullptr ? constant->at(packet) : draw(packet);
     }
 

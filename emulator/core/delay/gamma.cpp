@@ -113,13 +113,13 @@ const GammaQuantile::Node& GammaQuantile::node(std::size_t index)
 GammaQuantile::Node GammaQuantile::solve(double z) const
 {
     const double log_tail = base::log(base::normal_cdf(-std::abs(z)));
-    const double log_gamma_next = log_gamma_ + log_shape_; // of shape + 1
+    const double log_gamma_next = log_gamma_ + log_shape_; // log gamma(shape + 1)
     const double w_max = base::log(shape_ + 60.0 + 12.0 * std::sqrt(shape_));
     // Wilson and Hilferty, PNAS 17 (1931), or where that fails the power law near zero.
     const double root = 1.0 - 1.0 / (9.0 * shape_) + z / (3.0 * std::sqrt(shape_));
     double w = root > 0.1 ? log_shape_ + 3.0 * base::log(root)
                           : (base::log(base::normal_cdf(z)) + log_gamma_next) / shape_;
-    double log_density = 0.0; // of w
+    double log_density = 0.0; // log density of w
     constexpr int steps_max = 100;
     for (int i = 0; i < steps_max; ++i) {
         w = std::min(w, w_max);

@@ -42,7 +42,7 @@ private:
 
     double shape_;
     double log_shape_ = 0.0;
-    double log_gamma_ = 0.0;          // of the shape
+    double log_gamma_ = 0.0;          // log gamma(shape)
     std::array<Node, nodes> nodes_{}; // NaN: not worked out yet
 };
 

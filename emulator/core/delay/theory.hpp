@@ -36,7 +36,7 @@ private:
     base::Duration mean_{};
     std::optional<base::Duration> sd_;
     DelaySampler sampler_;
-    std::vector<TraceLaw::Step> steps_; // of a trace
+    std::vector<TraceLaw::Step> steps_; // values of a trace; empty for other laws
 };
 
 /// The share of datagrams for which delay and jitter together are negative, and which

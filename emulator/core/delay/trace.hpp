@@ -53,7 +53,7 @@ public:
 
 private:
     std::vector<base::Duration> delays_;
-    std::optional<TimeAxis> axis_; // nullopt: by packet
+    std::optional<TimeAxis> axis_; // nullopt: one value for each datagram
 };
 
 /// Read off a trace instead of drawn: value n for datagram n, or the value at its time; either

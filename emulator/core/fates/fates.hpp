@@ -52,7 +52,7 @@ void append_row(std::string& text, Direction direction, std::uint64_t number, co
 struct Fates {
     std::vector<Fate> up;
     std::vector<Fate> down;
-    RegimeNames regimes_up{}; // that their fates count, in the order in which they were met
+    RegimeNames regimes_up{}; // in the order first met; Fate::regime counts them from 1
     RegimeNames regimes_down{};
 
     friend bool operator==(const Fates&, const Fates&) = default;

@@ -18,7 +18,7 @@ struct Address {
     std::uint64_t high = 0;
     std::uint64_t low = 0;
 
-    static constexpr std::uint64_t ipv4_prefix = 0xffff'0000'0000ULL; // the lower half of it
+    static constexpr std::uint64_t ipv4_prefix = 0xffff'0000'0000ULL; // `low` of ::ffff:0:0
 
     friend bool operator==(const Address&, const Address&) = default;
 };
@@ -62,7 +62,7 @@ private:
     Address first_;
     Address mask_{~std::uint64_t{0}, ~std::uint64_t{0}};
     std::uint8_t version_ = 0;
-    std::uint8_t bits_ = 128; // of the mask
+    std::uint8_t bits_ = 128; // length of the mask
 };
 
 } // namespace hapnet::emulator

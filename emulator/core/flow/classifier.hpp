@@ -30,7 +30,7 @@ public:
     [[nodiscard]] std::optional<std::size_t> first(const PacketFacts& facts) const;
 
 private:
-    using Flows = std::uint16_t; // a bit for each
+    using Flows = std::uint16_t; // one bit for each flow
 
     /// Says which flows take each number; empty: all take all.
     class Table {
@@ -52,12 +52,12 @@ private:
     Table by_version_;
     Table by_dscp_;
     Table by_size_;
-    Table by_port_; // of either end
+    Table by_port_; // port of either end
     Table by_to_port_;
     Table by_from_port_;
     Flows all_ = 0;
-    Flows with_ports_ = 0; // that ask for ports
-    Flows with_nets_ = 0;  // that ask for addresses
+    Flows with_ports_ = 0; // flows that ask for ports
+    Flows with_nets_ = 0;  // flows that ask for addresses
 };
 
 /// Says which flow each packet of one path belongs to. Later fragments of a packet follow its first
@@ -89,16 +89,16 @@ private:
         Address from{};
         Address to{};
         std::uint32_t id = 0;
-        std::uint16_t protocol = 0; // of IPv4; that of IPv6 is not part of its identity
-        std::uint8_t version = 0;   // 0: none
-        std::int8_t flow = -1;      // -1: none
+        std::uint16_t protocol = 0; // 0 for IPv6, which does not identify fragments by it
+        std::uint8_t version = 0;   // 0: this place is free
+        std::int8_t flow = -1;      // -1: it belongs to no flow
         base::TimePoint at{};
     };
 
     std::optional<std::size_t> classify_fragment(const PacketFacts& facts, base::TimePoint at);
 
     std::shared_ptr<const FlowFilters> filters_;
-    std::unique_ptr<std::array<Fragmented, packets_max>> fragmented_; // null: none came yet
+    std::unique_ptr<std::array<Fragmented, packets_max>> fragmented_; // null: no fragment yet
     std::uint64_t unknown_fragments_ = 0;
 };
 

@@ -45,7 +45,7 @@ struct SharedFormat {
 struct Flow {
     std::string name;
     Match match;
-    bool passes = false;      // untouched
+    bool passes = false;      // its packets pass untouched
     bool shares_rate = false; // goes through the bottleneck and the queue of the rest
 
     friend bool operator==(const Flow&, const Flow&) = default;

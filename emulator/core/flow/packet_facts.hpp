@@ -18,13 +18,13 @@ struct PacketFacts {
     enum class Part : std::uint8_t { whole, first, later };
 
     std::uint16_t protocol = 0; // the number of IANA, behind all extension headers; or `arp`
-    std::uint8_t version = 0;   // of IP, 4 or 6; 0: ARP
+    std::uint8_t version = 0;   // IP version, 4 or 6; 0: ARP
     std::uint8_t dscp = 0;
     bool has_ports = false;
     Part part = Part::whole;
     std::uint16_t from_port = 0;
     std::uint16_t to_port = 0;
-    std::uint32_t bytes = 0;       // of the IP packet
+    std::uint32_t bytes = 0;       // size of the IP packet
     std::uint32_t fragment_id = 0; // the identification of the packet that a part belongs to
     Address from{};
     Address to{};

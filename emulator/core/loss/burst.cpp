@@ -58,7 +58,7 @@ base::Result<void> TimedBurst::validate() const
 LossTheory TimedBurst::theory(const Arrivals& arrivals) const
 {
     const auto spacing = static_cast<double>(arrivals.spacing.count());
-    const double period = static_cast<double>(every.count()) / spacing; // in datagrams
+    const double period = static_cast<double>(every.count()) / spacing; // period in datagrams
     const auto* time = std::get_if<base::Duration>(&lost);
     const double losses = time != nullptr ? static_cast<double>(time->count()) / spacing
                                           : static_cast<double>(std::get<std::uint32_t>(lost));

@@ -99,9 +99,9 @@ public:
 
 private:
     TimedBurst law_;
-    base::Duration begin_{};   // of a period, in [0, every)
-    std::int64_t period_ = -1; // in which the last datagram came; -1: before begin_
-    std::uint32_t lost_ = 0;   // in that period
+    base::Duration begin_{};   // beginning of period 0, in [0, every)
+    std::int64_t period_ = -1; // period of the last datagram; -1: before begin_
+    std::uint32_t lost_ = 0;   // losses so far in period_
 };
 
 } // namespace hapnet::emulator

@@ -185,7 +185,7 @@ public:
 private:
     TimedGilbertElliott law_;
     bool is_bad_;
-    std::optional<base::Duration> last_{}; // arrival
+    std::optional<base::Duration> last_{}; // arrival of the previous datagram
 };
 
 } // namespace hapnet::emulator

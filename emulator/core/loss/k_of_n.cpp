@@ -35,7 +35,7 @@ BlockLoss::Model::Model(const BlockLoss& law, const base::RandomStream& stream)
 bool BlockLoss::Model::on_packet(const Packet& packet, const base::RandomStream& stream)
 {
     if (seen_ >= law_.of) seen_ = lost_ = 0;
-    const double places = law_.of - seen_; // that are left in the block
+    const double places = law_.of - seen_; // places left in the block
     const double losses = law_.lost > lost_ ? law_.lost - lost_ : 0;
     const bool is_lost = stream.uniform(packet.number) * places < losses;
     ++seen_;

@@ -48,8 +48,8 @@ public:
 
 private:
     BlockLoss law_;
-    std::uint32_t seen_ = 0; // datagrams of the present block
-    std::uint32_t lost_ = 0; // of those
+    std::uint32_t seen_ = 0; // datagrams of the present block so far
+    std::uint32_t lost_ = 0; // losses among them
 };
 
 } // namespace hapnet::emulator

@@ -46,7 +46,7 @@ public:
 
 private:
     ListedLoss law_;
-    std::size_t next_ = 0; // the first that is not before the datagram
+    std::size_t next_ = 0; // index of the first listed number that is not over
 };
 
 } // namespace hapnet::emulator

@@ -64,7 +64,7 @@ public:
 
 private:
     Outage law_;
-    std::size_t next_ = 0; // the first window that is not over
+    std::size_t next_ = 0; // index of the first window that is not over
 };
 
 } // namespace hapnet::emulator

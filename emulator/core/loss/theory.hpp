@@ -30,7 +30,7 @@ struct Arrivals {
 /// the arrivals in question. Only the laws in time depend on the spacing.
 struct LossTheory {
     double share = 0.0;
-    std::optional<double> mean_run{};        // of losses, in datagrams; nullopt: none, or endless
+    std::optional<double> mean_run{};        // length in datagrams; nullopt: no runs, or endless
     std::optional<double> loss_after_loss{}; // probability; nullopt: nothing is lost
     /// The correlation of a state of the law with the next one, where it has one number for it.
     std::optional<double> decay{};
@@ -101,7 +101,7 @@ struct RecurringBursts {
 
 /// These and no others: nothing is drawn.
 struct SameLosses {
-    std::vector<std::uint8_t> lost; // 1: lost; by number
+    std::vector<std::uint8_t> lost; // 1: lost; the index is the datagram's number
 };
 
 /// The share that is lost of the datagrams that meet a state.
@@ -128,8 +128,8 @@ using LossProperty =
 
 /// Facts about a run besides its losses.
 struct RunFacts {
-    std::uint64_t count = 0;                 // of datagrams
-    std::optional<base::Duration> spacing{}; // of datagrams, if they came evenly; > 0
+    std::uint64_t count = 0;                 // number of datagrams
+    std::optional<base::Duration> spacing{}; // between datagrams, if they came evenly; > 0
 };
 
 /// Returns the losses of a law without random draws among the first `count` datagrams. It runs the

@@ -80,7 +80,7 @@ LossTheory TimedTraceLoss::theory(const Arrivals& arrivals) const
     }
     const auto n = static_cast<double>(count);
     LossTheory theory = theory_from_pairs(losses / n, both / n);
-    const double alike = losses * (1.0 - losses / n); // of independent losses of the same share
+    const double alike = losses * (1.0 - losses / n); // variance of independent losses
     theory.variance_inflation = alike > 0.0 ? variance / alike : 0.0;
     return theory;
 }

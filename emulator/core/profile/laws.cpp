@@ -36,7 +36,7 @@ std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwi
         is_found = true;
         Law law;
         base::read_fields(table, law);
-        table.finish(); // not after an unknown law, which makes all parameters unknown
+        table.finish(); // not for an unknown law: its parameters are unknown, too
         if constexpr (requires { law.load(reading); }) {
             const auto loaded = reading.is_good() ? law.load(reading) : base::Result<void>{};
             if (!loaded) reading.complain(table.place(), loaded.error().message);

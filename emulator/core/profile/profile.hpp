@@ -16,7 +16,7 @@ namespace hapnet::emulator {
 
 /// The settings that one of several paths has of its own, over those of all paths.
 struct PathPatch {
-    std::string path; // its name; see path_name.hpp
+    std::string path; // name of the path; see path_name.hpp
     Patch up;
     Patch down;
 
@@ -40,11 +40,11 @@ struct Change {
 struct Profile {
     std::string name;
     std::optional<base::Seed> seed;        // nullopt: the file does not say
-    Path path;                             // at the beginning
+    Path path;                             // conditions at the beginning
     std::vector<Change> timeline;          // ascending in time
     std::vector<PathPatch> paths{};        // ascending by their names
     std::vector<base::Condition> checks{}; // what the statistics of a run must meet in the end
-    std::vector<Flow> flows{};             // the first that matches takes a packet
+    std::vector<Flow> flows{};             // a packet belongs to the first that matches
 
     friend bool operator==(const Profile&, const Profile&) = default;
 };

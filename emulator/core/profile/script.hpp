@@ -26,7 +26,7 @@ public:
 private:
     Profile profile_;
     Timeline timeline_;
-    std::size_t hash_; // of its text without the seed
+    std::size_t hash_; // hash of the profile's text without the seed
 };
 
 } // namespace hapnet::emulator

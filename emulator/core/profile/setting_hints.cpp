@@ -37,7 +37,7 @@ constexpr std::array examples{
     LawExample{"loss", "timed-burst", R"({ law = "timed-burst", lost = "50ms", every = "1s" })"},
     LawExample{"loss", "gilbert", R"({ law = "gilbert", share = "2%", mean_burst = 5.0 })"},
     LawExample{"loss", "gilbert-elliott", gilbert_elliott},
-    LawExample{"loss", "gemodel", gilbert_elliott}, // tc-netem
+    LawExample{"loss", "gemodel", gilbert_elliott}, // the name in tc-netem
     LawExample{"loss", "timed-gilbert-elliott",
                R"({ law = "timed-gilbert-elliott", mean_good = "10s", mean_bad = "200ms" })"},
     LawExample{
@@ -174,7 +174,7 @@ std::string explained(std::string_view name, const std::string& value, const std
     }
     const bool is_of_netem = name == "delay" || name == "loss" || name == "duplicate" ||
                              name == "corrupt" || name == "reorder";
-    const bool has_space = why.find(" has a space: ") != std::string::npos; // before its unit
+    const bool has_space = why.find(" has a space: ") != std::string::npos; // before the unit
     if (is_of_netem && !has_space && is_netem(value)) {
         return fmt::format("'{0}': a sentence of tc-netem goes to hapnet-emulator --netem "
                            "\"{1} {0}\"",

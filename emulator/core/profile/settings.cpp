@@ -209,7 +209,7 @@ void for_each_of(Path& path, std::optional<Direction> direction, Use use)
 /// The setting that a key names.
 struct Target {
     Way way;
-    std::string regime{}; // that it is of; empty: of the direction
+    std::string regime{}; // regime of the setting; empty: the direction itself
     std::string name;     // one of setting_keys
 };
 

@@ -31,8 +31,8 @@ struct DirectionSettings {
     Patch patch;
     std::optional<std::vector<LossLaw>> burst_loss{};
     std::optional<base::Duration> correlation_time{};
-    std::vector<RegimePatch> of_regimes{}; // that are there already
-    std::optional<bool> are_together{};    // the regimes of both directions
+    std::vector<RegimePatch> of_regimes{}; // changes of regimes that exist already
+    std::optional<bool> are_together{};    // both directions always have the same regime
 };
 
 /// The variation that a correlation time is of: the jitter, or without one the delay. nullptr:
@@ -57,7 +57,7 @@ using SettingTexts = std::array<std::optional<std::string>, setting_keys.size()>
 struct Setting {
     std::optional<Direction> direction; // nullopt: both ways
     DirectionSettings settings;
-    std::string path{}; // empty: of all paths
+    std::string path{}; // empty: the setting is for all paths
 };
 
 /// Reads a setting. `key` is NAME, both.NAME, up.NAME or down.NAME with a NAME of setting_keys

@@ -239,7 +239,7 @@ struct PlacedChange {
     Change change;
     Place place;
     Place ramp_place;
-    std::vector<Setting> of_regimes{}; // that depend on what holds before
+    std::vector<Setting> of_regimes{}; // settings that depend on the conditions before them
 };
 
 PlacedChange read_change(const Node& node, const PathNames& names, Reading& reading)
@@ -303,7 +303,7 @@ PlacedChange read_change(const Node& node, const PathNames& names, Reading& read
 /// Makes whole lists of what changes say of regimes, in their order.
 void resolve_regimes(std::vector<PlacedChange>& changes, const Profile& profile, Reading& reading)
 {
-    std::map<std::string, Path> held; // so far, on the paths that are spoken of
+    std::map<std::string, Path> held; // conditions so far on the paths that are named
     for (PlacedChange& placed : changes) {
         for (const Setting& setting : placed.of_regimes) {
             const std::string& name = setting.path;
@@ -435,7 +435,7 @@ std::string time_text(base::Duration time)
 struct Section {
     std::string name;
     SettingTexts texts;
-    SettingTexts but; // that stand elsewhere
+    SettingTexts but; // settings that stand elsewhere in the text
 };
 
 /// Returns the sections of both directions, first of their common settings. `prefix` is that of the
@@ -456,7 +456,7 @@ std::vector<Section> sections_of(const PathPatch& own)
     const auto of_flow = flow.empty() ? "" : fmt::format(".flow.{}", flow);
     if (path.empty()) return sections_of(of_flow.substr(1) + ".", own.up, own.down);
     if (is_pair(path)) {
-        const std::string_view of = path; // Clang 14 captures no structured binding
+        const std::string_view of = path; // Clang 14 cannot capture a structured binding
         const auto name = [&](Direction way) {
             return fmt::format("link.{}{}", base::quoted(way_name(of, way)), of_flow);
         };

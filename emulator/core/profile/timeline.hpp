@@ -27,7 +27,7 @@ public:
 
     /// A change of a profile that cannot be made.
     struct BadChange {
-        std::size_t index = 0; // in the timeline
+        std::size_t index = 0; // its place in the timeline, from 0
         std::string message;
     };
 
@@ -46,7 +46,7 @@ public:
 private:
     struct Step {
         Change change;
-        Path before;           // what held at its time, just before it
+        Path before;           // conditions at its time, just before it
         std::size_t first = 0; // the earliest step whose ramp may still go on then
     };
 

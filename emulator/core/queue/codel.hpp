@@ -27,9 +27,9 @@ public:
     /// The facts that CoDel may use about the datagram at the head.
     struct Head {
         base::Duration waited{};
-        std::size_t bytes_behind = 0; // in the queue
-        bool is_first = false;        // of those shown at this moment
-        bool is_markable = false;     // instead of dropped
+        std::size_t bytes_behind = 0; // bytes that wait behind it in the queue
+        bool is_first = false;        // the first one that is shown at this moment
+        bool is_markable = false;     // may be marked instead of dropped
     };
 
     [[nodiscard]] QueueVerdict judge(const Head& head, base::TimePoint now)
@@ -115,12 +115,12 @@ private:
 
     base::Duration target_;
     base::Duration interval_;
-    std::optional<base::TimePoint> first_above_; // when it will have been too long for an interval
+    std::optional<base::TimePoint> first_above_; // when waits will have been long for an interval
     base::TimePoint drop_next_{};
-    std::uint32_t count_ = 0; // of drops since it began to drop
+    std::uint32_t count_ = 0; // drops and marks that set the drop rate (`count` in RFC 8289)
     std::uint32_t last_count_ = 0;
     bool is_dropping_ = false;
-    bool begins_ = false; // the first of a time of dropping was just dropped
+    bool begins_ = false; // the last verdict was the first drop of a series
 };
 
 } // namespace hapnet::emulator

@@ -23,7 +23,7 @@ constexpr auto names_of(base::Tag<QueueLaw>)
 /// A law's verdict on a datagram.
 enum class QueueVerdict : std::uint8_t {
     pass,
-    mark, // CE instead of a drop: its sender understands that
+    mark, // CE instead of a drop, for ECN-capable datagrams
     drop,
 };
 
@@ -34,15 +34,16 @@ struct QueueControl {
     static constexpr std::uint32_t quantum_most = 1U << 30U;
 
     QueueLaw law = QueueLaw::drop_tail;
-    std::optional<base::Duration> target{};   // nullopt: that of the RFC, 5 ms or 15 ms
-    std::optional<base::Duration> interval{}; // of codel and fq-codel; nullopt: 100 ms
-    std::uint32_t packets_max = 0;            // waiting; 0: no such bound
+    std::optional<base::Duration> target{};   // nullopt: 5 ms, or 15 ms for PIE, as in the RFCs
+    std::optional<base::Duration> interval{}; // for codel and fq-codel; nullopt: 100 ms
+    std::uint32_t packets_max = 0;            // limit of waiting datagrams; 0: no such bound
     base::Duration time_max{}; // a datagram that would wait longer is dropped; 0: no such bound
     /// A datagram that is ECN-capable is marked where the law would drop it; nullopt: it is.
     std::optional<bool> is_marking{};
-    std::optional<base::Duration> mark_above{};   // waited longer: marked, if ECN-capable
-    std::optional<std::uint32_t> flows{};         // queues of fq-codel; nullopt: 1024
-    std::optional<std::uint32_t> quantum_bytes{}; // of a flow's turn; nullopt: 1514
+    /// ECN-capable datagrams that waited longer are marked.
+    std::optional<base::Duration> mark_above{};
+    std::optional<std::uint32_t> flows{};         // number of queues of fq-codel; nullopt: 1024
+    std::optional<std::uint32_t> quantum_bytes{}; // bytes in a flow's turn; nullopt: 1514
 
     [[nodiscard]] base::Duration codel_interval() const
     {

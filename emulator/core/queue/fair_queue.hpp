@@ -58,12 +58,12 @@ private:
         explicit Flow(const Codel& its_codel) : codel{its_codel} {}
 
         Codel codel;
-        std::uint32_t first = none; // nodes
+        std::uint32_t first = none; // index in nodes_, as is `last`
         std::uint32_t last = none;
         std::size_t bytes = 0;
         std::int64_t deficit = 0;
-        std::uint32_t next_in_turn = none; // flow
-        bool has_turns = false;            // it is in one of the two lists
+        std::uint32_t next_in_turn = none; // index in flows_
+        bool has_turns = false;            // the flow is in new_ or old_
     };
     /// Flows in turn.
     struct Turns {
@@ -79,7 +79,7 @@ private:
 
     QueueControl control_;
     std::vector<Flow> flows_;
-    std::deque<Node> nodes_; // those that have ever been used; they stay where they are
+    std::deque<Node> nodes_; // nodes used at least once; they never move
     std::uint32_t free_ = none;
     Turns new_;
     Turns old_;

@@ -96,9 +96,9 @@ private:
         return 1.0;
     }
 
-    double target_; // in seconds, as the delays
+    double target_; // in seconds, as delay_
     double delay_ = 0.0;
-    double delay_before_ = 0.0; // at the last update
+    double delay_before_ = 0.0; // delay_ at the last update
     double probability_ = 0.0;
     base::Duration burst_{};
     std::optional<base::TimePoint> next_update_;

@@ -90,7 +90,8 @@ std::optional<Completion> Opportunities::finish(base::Duration from, Work work, 
 {
     if (work == 0) return Completion{from, 0};
     const auto before = count(from, repeats);
-    const auto last = before + (work - 1) / work_per_opportunity; // the number of the one it takes
+    // The number of the last opportunity that the work takes.
+    const auto last = before + (work - 1) / work_per_opportunity;
     const auto round = static_cast<base::Duration::rep>(last / each_round());
     if (round > 0 && !repeats) return std::nullopt;
     const auto moment = std::ranges::upper_bound(moments_, last % each_round(), {}, &Moment::count);

@@ -93,7 +93,7 @@ private:
 
     std::vector<std::uint64_t> rates_;
     TimeAxis axis_;
-    Work per_period_ = 0; // at most 2^63
+    Work per_period_ = 0; // work in one period; at most 2^63
 };
 
 /// The recorded capacity of a line over time.

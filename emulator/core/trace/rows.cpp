@@ -171,7 +171,7 @@ base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,
         return lines.fail(fmt::format("the file ends without a {}", name_of(measure)));
     };
     if (!base::LineReader{lines}.next()) {
-        std::ignore = lines.next(); // goes to the end
+        std::ignore = lines.next(); // reads to the end of the text
         return nothing();
     }
     const auto layout = find_layout(lines, measure, columns_of(format, measure, lines));

@@ -16,8 +16,8 @@ namespace hapnet::emulator {
 
 /// The moment at which time 0 of a trace lies.
 enum class TraceStart : std::uint8_t {
-    run,   // when the run begins
-    first, // when the first datagram of the direction arrives
+    run,   // time 0 is the start of the run
+    first, // time 0 is the first arrival in the direction
 };
 constexpr auto names_of(base::Tag<TraceStart>) { return base::names("run", "first"); }
 
@@ -30,7 +30,7 @@ struct TraceTiming {
     bool repeat = true;
     base::Duration offset{}; // not negative
     TraceStart start = TraceStart::run;
-    base::Duration slot{}; // of each value, where the file has no times; 0: it has
+    base::Duration slot{}; // length of each value; 0: the file has times
 
     friend bool operator==(const TraceTiming&, const TraceTiming&) = default;
 };

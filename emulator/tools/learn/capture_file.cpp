@@ -44,7 +44,7 @@ private:
 
 constexpr std::uint32_t pcap_microseconds = 0xa1b2'c3d4;
 constexpr std::uint32_t pcap_nanoseconds = 0xa1b2'3c4d;
-constexpr std::uint32_t pcapng_section = 0x0a0d'0d0a; // the same in either order
+constexpr std::uint32_t pcapng_section = 0x0a0d'0d0a; // equal in both byte orders
 constexpr std::uint32_t pcapng_order = 0x1a2b'3c4d;
 
 // https://www.tcpdump.org/linktypes.html
@@ -103,7 +103,7 @@ PacketEnd end_of(Bytes address)
 
 std::optional<IpPayload> read_ipv4(Bytes packet)
 {
-    constexpr std::uint32_t offset_and_more = 0x3fff; // not 0: a fragment
+    constexpr std::uint32_t offset_and_more = 0x3fff; // nonzero: the packet is a fragment
     if (packet.size() < 20 || (big(packet, 6, 2) & offset_and_more) != 0) return std::nullopt;
     const std::size_t header = std::size_t{4} * (big(packet, 0, 1) & 0xfU);
     std::size_t total = big(packet, 2, 2);
@@ -202,7 +202,7 @@ std::optional<SeenPacket> read_packet(Bytes bytes)
 /// An interface of a capture.
 struct Interface {
     std::uint32_t link = 0;
-    std::uint64_t steps = 1'000'000; // of its clock, a second
+    std::uint64_t steps = 1'000'000; // steps of its clock in a second
     bool is_binary = false;          // steps is a power of two, not of ten
     std::int64_t offset_s = 0;
 };
@@ -441,7 +441,7 @@ private:
 
     Bytes left_;
     ByteOrder order_;
-    std::vector<Interface> interfaces_; // of this section
+    std::vector<Interface> interfaces_; // interfaces of this section
     std::uint32_t first_of_section_ = 0;
     Collector collector_;
 };

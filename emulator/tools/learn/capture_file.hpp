@@ -19,7 +19,7 @@ namespace hapnet::emulator::tools {
 /// The sender or the receiver of a packet. An IPv4 address stands in the first four bytes.
 struct PacketEnd {
     std::array<std::byte, 16> address{};
-    std::uint16_t port = 0; // of an ICMP echo: its identifier, at both ends
+    std::uint16_t port = 0; // for an ICMP echo: its identifier, at both ends
     bool is_v6 = false;
 
     friend auto operator<=>(const PacketEnd&, const PacketEnd&) = default;
@@ -42,19 +42,19 @@ struct PacketFlow {
 
 /// A whole IP packet of UDP, of TCP with a payload, or an ICMP echo.
 struct SeenPacket {
-    base::Duration at{}; // since 1970
+    base::Duration at{}; // time since 1970
     std::uint32_t interface = 0;
     PacketFlow flow{};
-    std::uint32_t number = 0;             // TCP's sequence number, or that of an echo
-    std::span<const std::byte> payload{}; // as much of it as was captured
-    std::size_t payload_bytes = 0;        // as it was on the wire
+    std::uint32_t number = 0;             // sequence number of TCP or of an echo
+    std::span<const std::byte> payload{}; // as much as was captured
+    std::size_t payload_bytes = 0;        // payload size on the wire
 };
 
 /// The contents of a file of packets.
 struct Capture {
-    std::vector<SeenPacket> packets; // their payloads lie in the bytes that were read
-    std::size_t passed_over = 0;     // others: fragments, other protocols, acknowledgements
-    std::size_t cut_off_in = 0; // the number of the packet within which the file ends; 0: whole
+    std::vector<SeenPacket> packets; // payloads point into the bytes that were read
+    std::size_t passed_over = 0; // packets left out: fragments, other protocols, acknowledgements
+    std::size_t cut_off_in = 0;  // the number of the packet within which the file ends; 0: whole
 };
 
 inline constexpr std::size_t captured_packets_max = 2'000'000;

@@ -43,8 +43,8 @@ private:
 
 /// The means by which datagrams are recognised.
 struct Identity {
-    std::size_t payload_bytes = everything; // so many of each: the least that was captured of any
-    bool is_of_exchange = false;            // a question and its answer have the same
+    std::size_t payload_bytes = everything; // bytes compared: the fewest captured of any packet
+    bool is_of_exchange = false;            // a question and its answer count as equal
 
     [[nodiscard]] std::uint64_t of(const SeenPacket& packet) const
     {
@@ -78,9 +78,9 @@ std::size_t least_captured(const Packets& packets)
 /// The packets that were sent, matched with those that arrived.
 struct Matched {
     MeasuredWay way{};
-    std::vector<base::Duration> differences{}; // of those that arrived
-    std::size_t repeated = 0;                  // sent, but not the only ones with their payload
-    std::size_t copies = 0;                    // arrived again
+    std::vector<base::Duration> differences{}; // differences for the packets that arrived
+    std::size_t repeated = 0;                  // packets sent that share their payload with others
+    std::size_t copies = 0;                    // packets that arrived again
     bool is_uneven = false;                    // the time from one to the next varies
 };
 
@@ -93,7 +93,7 @@ bool is_uneven(const std::vector<base::Duration>& sent)
         const double off = base::to_seconds(sent[i] - sent[i - 1]) - mean;
         squares += off * off;
     }
-    return squares / n > 0.25 * mean * mean; // their deviation is more than half of their mean
+    return squares / n > 0.25 * mean * mean; // true if the deviation is more than half of the mean
 }
 
 /// The packets that are the only ones with their identity, and how many others there are.
@@ -124,7 +124,7 @@ struct Arrival {
 std::uint64_t reordered_of(const std::vector<base::Duration>& arrivals)
 {
     std::uint64_t reordered = 0;
-    base::Duration earliest = base::Duration::max(); // of those that were sent later
+    base::Duration earliest = base::Duration::max(); // earliest arrival among those sent later
     for (std::size_t i = arrivals.size(); i-- > 0;) {
         if (arrivals[i] > earliest) ++reordered;
         earliest = std::min(earliest, arrivals[i]);
@@ -270,7 +270,7 @@ private:
             packets, [&](const SeenPacket* one) { return of_b_.contains(identity_.of(*one)); }));
     }
 
-    /// What most of these are called at b.
+    /// The packets at b of the flow to which most of these packets belong there.
     [[nodiscard]] Packets same_at_b(const Packets& at_a) const
     {
         std::map<PacketFlow, std::size_t> counts;
@@ -329,7 +329,8 @@ base::Result<Measurement> measure_answers(const Packets& packets)
         if (flow.protocol == PacketProtocol::tcp || flow == flow.back()) continue;
         auto matched = match(sent, packets_of(flows, flow.back()), identity);
         if (matched.differences.size() <= best.differences.size()) continue;
-        if (median_of(matched.differences) < base::Duration{}) continue; // these are the answers
+        // A negative difference: these packets are the answers.
+        if (median_of(matched.differences) < base::Duration{}) continue;
         best = std::move(matched);
         asking = flow;
     }

@@ -17,7 +17,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr std::size_t fitted_delays_min = 100; // for the law of the test
+constexpr std::size_t fitted_delays_min = 100; // fewer are too few for the test's law
 
 /// Sorted, in nanoseconds, with their moments.
 struct Values {

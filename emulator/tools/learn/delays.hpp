@@ -18,14 +18,14 @@ struct DelayModel {
     std::string_view name;
     base::Duration base{};
     DelayLaw jitter;
-    double distance = 0.0;           // largest, of the distribution functions
-    std::optional<double> p_value{}; // Kolmogorov and Smirnov; nullopt: too few delays to tell
+    double distance = 0.0;           // largest distance of the distribution functions
+    std::optional<double> p_value{}; // Kolmogorov-Smirnov; nullopt: too few delays
 };
 
 /// The models found for the delays of a direction.
 struct DelayFit {
     std::vector<DelayModel> models{};  // the nearest first; one, constant, if they do not vary
-    double correlation = 0.0;          // of normal scores of neighbours
+    double correlation = 0.0;          // correlation of neighbours' normal scores
     base::Duration correlation_time{}; // 0: independent, or the spacing is not known
     std::size_t independent = 0;       // delays that were far enough apart for the test
 };

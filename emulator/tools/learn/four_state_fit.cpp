@@ -103,8 +103,8 @@ private:
         return to == usual ? steps.gap_to_burst : steps.gap_to_isolated;
     }
 
-    /// What each side has to do with the length of each run, the larger one 1; gives the log of
-    /// what was divided out.
+    /// Sets the weight of both sides for the length of each run, scaled so that the larger one is
+    /// 1. Returns the sum of the logarithms of the scales.
     double weigh(const FourStateSteps& steps)
     {
         const double gap = log_of(1.0 - steps.gap_to_burst - steps.gap_to_isolated);
@@ -190,7 +190,7 @@ StepCounts counted(std::span<const LossRun> runs, std::size_t gap)
         const bool is_alone = runs[i].length == 1 && (i == 0 || is_gap(i - 1)) && is_gap(i + 1);
         return is_alone ? special : usual;
     };
-    constexpr double a_little = 0.5; // no step is ruled out
+    constexpr double a_little = 0.5; // more than 0, so that no step is ruled out
     StepCounts counts{a_little, a_little, a_little, a_little,
                       a_little, a_little, a_little, a_little};
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -206,7 +206,7 @@ StepCounts counted(std::span<const LossRun> runs, std::size_t gap)
 /// Makes at most `iterations_max` steps uphill.
 void iterate(RunSums& sums, FourStateFit& fit, int iterations_max)
 {
-    constexpr double enough = 1e-5; // of the log likelihood
+    constexpr double enough = 1e-5; // stops when the log likelihood gains less
     double before = -1e300;
     for (int i = 0;; ++i) {
         const StepCounts counts = sums.expect(fit.steps, fit.log_likelihood);
@@ -258,9 +258,9 @@ LossChain chain_of(const FourStateSteps& steps)
 std::optional<FourStateFit> fit_four_states(const std::vector<LossRun>& all)
 {
     constexpr std::size_t runs_max = 20'000;
-    constexpr std::size_t runs_min = 5;  // fewer than parameters
-    constexpr int iterations_first = 15; // of each start
-    constexpr int iterations_max = 200;  // of the best
+    constexpr std::size_t runs_min = 5;  // with fewer there are more parameters than runs
+    constexpr int iterations_first = 15; // for each start
+    constexpr int iterations_max = 200;  // for the best start
     if (all.size() < runs_min) return std::nullopt;
     const auto runs = std::span{all}.first(std::min(all.size(), runs_max));
     RunSums sums{runs};

@@ -14,7 +14,7 @@ namespace hapnet::emulator::tools {
 struct FourStateFit {
     FourState law{};
     FourStateSteps steps{};
-    double log_likelihood = 0.0; // of all runs
+    double log_likelihood = 0.0; // log likelihood of all runs
 };
 
 /// Fits Salsano's four states (FourState) by expectation and maximization. As a run of arrivals is

@@ -46,7 +46,7 @@ std::optional<TripFate> fate_in(const Value* lost)
 {
     if (lost == nullptr) return std::nullopt;
     if (lost->is_boolean())
-        return lost->get<bool>() ? TripFate::lost : TripFate::answered; // before 0.9
+        return lost->get<bool>() ? TripFate::lost : TripFate::answered; // format of irtt before 0.9
     if (!lost->is_string()) return std::nullopt;
     const auto& word = lost->get_ref<const std::string&>();
     if (word == "false") return TripFate::answered;

@@ -325,7 +325,7 @@ bool has_no_delay(const std::optional<MeasuredWay>& way)
 
 struct Choice {
     LearnedForm form = LearnedForm::laws;
-    std::size_t regimes = 1; // in that form
+    std::size_t regimes = 1; // number of regimes in the form LearnedForm::regimes
 };
 
 /// One way of a measurement: chooses the form by the first half, and learns the whole in it.

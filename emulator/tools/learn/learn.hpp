@@ -20,7 +20,7 @@ namespace hapnet::emulator::tools {
 /// The form in which the delays of a direction were learned.
 enum class LearnedForm : std::uint8_t {
     laws,    // drawn by a law with the parameters that were found
-    regimes, // by the laws of several regimes
+    regimes, // drawn by the laws of several regimes
     table,   // drawn from the values that were measured
     trace,   // replayed as measured
 };
@@ -52,8 +52,8 @@ constexpr auto fields_of(base::Tag<WayLesson>)
 /// A profile that does to datagrams what was measured, and how sure that is.
 struct Lesson {
     Profile profile;
-    std::vector<std::string> remarks; // for people, one a line
-    std::vector<std::string> plots;   // for a terminal, of several lines each
+    std::vector<std::string> remarks; // for people, one on each line
+    std::vector<std::string> plots;   // for a terminal, several lines each
     std::vector<WayLesson> ways;
 };
 
@@ -83,7 +83,7 @@ struct LearnSettings {
     /// Files in which laws find the measured values, by the name of the way; none: no file can be
     /// named.
     std::map<std::string, MeasuredTable> tables{};
-    bool replays = false; // traces, whatever laws would do
+    bool replays = false; // replay traces even if laws would fit
 };
 
 /// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law of

@@ -52,7 +52,7 @@ double inflation_of(const std::vector<std::size_t>& lengths)
         return sum;
     };
     const double variance = covariance(0);
-    if (variance < 1e-9 * n) return 1.0; // all are equal
+    if (variance < 1e-9 * n) return 1.0; // all values are equal
     double inflation = 1.0;
     for (std::size_t lag = 1; lag <= std::min(lags_max, logs.size() / 2); ++lag) {
         const double correlation = covariance(lag) / variance;
@@ -76,7 +76,7 @@ std::vector<LossRun> runs_of(const std::vector<bool>& lost)
 
 std::vector<double> run_lengths(const LossChain& chain, bool of_losses, std::size_t most)
 {
-    Row row{}; // where the datagram before a run is
+    Row row{}; // state of the datagram before a run
     for (std::size_t i = 0; i < row.size(); ++i) {
         row[i] = chain.shares[i] * (of_losses ? 1.0 - chain.loses[i] : chain.loses[i]);
     }
@@ -112,7 +112,7 @@ std::optional<double> test_runs(const std::vector<LossRun>& runs, const LossChai
     double statistic = 0.0;
     int classes = 0;
     auto counted = lengths.begin();
-    double from = 1.0; // at_least where the class begins
+    double from = 1.0; // value of at_least where the class begins
     const auto close = [&](std::vector<std::size_t>::iterator end, double to) {
         const double expected = n * (from - to);
         const auto observed = static_cast<double>(end - counted);

@@ -26,7 +26,7 @@ struct LossChain {
 
     std::array<Row, states_max> steps{}; // [from][to]
     Row loses{};
-    Row shares{}; // of the datagrams that meet each state, in the long run
+    Row shares{}; // share of datagrams in each state, in the long run
 };
 
 /// The lengths of runs of losses, or of arrivals, in a chain, up to `most` datagrams: [i] is the

@@ -17,7 +17,7 @@ namespace {
 
 /// Two states that step once per datagram, and lose a share each: 0 good, 1 bad.
 struct Chain {
-    std::array<double, 2> leaves{}; // the state for the other one
+    std::array<double, 2> leaves{}; // probability of leaving each state
     std::array<double, 2> loses{};
 
     [[nodiscard]] std::array<double, 2> stationary() const
@@ -50,8 +50,8 @@ struct Chain {
 struct Expected {
     std::array<double, 2> visits{};
     std::array<double, 2> losses{};
-    std::array<double, 2> departures{}; // to the other state
-    std::array<double, 2> steps{};      // visits that are not the last
+    std::array<double, 2> departures{}; // departures to the other state
+    std::array<double, 2> steps{};      // steps from each state to the next datagram
     double log_likelihood = 0.0;
 };
 

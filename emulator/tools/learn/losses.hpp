@@ -15,10 +15,10 @@ namespace hapnet::emulator::tools {
 struct LossModel {
     std::string_view name;
     LossLaw law;
-    LossChain chain{}; // the same, state by state
+    LossChain chain{}; // the law as a chain of states
     double log_likelihood = 0.0;
     int parameters = 0;
-    double bic = 0.0; // Schwarz, Annals of Statistics 6, 1978: the least is the best
+    double bic = 0.0; // less is better (Schwarz, Annals of Statistics 6, 1978)
 
     // Goodness of fit (see test_runs); nullopt: too few runs to tell.
     std::optional<double> losses_p_value{};

@@ -13,11 +13,11 @@ namespace hapnet::emulator::tools {
 
 /// A file with the delays and losses of one way, as laws read it.
 struct MeasuredTable {
-    std::string file;      // as a profile names it
-    std::string text;      // what is in it
-    std::string columns{}; // of a table with other names; see parse_columns()
-    base::Duration slot{}; // how far apart its rows are, where it does not say so; 0: it does
-    bool is_timed = false; // it has times, or slots
+    std::string file;      // name of the file in a profile
+    std::string text;      // contents of the file
+    std::string columns{}; // names of its columns; see parse_columns()
+    base::Duration slot{}; // time from row to row, if the file lacks it; else 0
+    bool is_timed = false; // its rows have times or slots
     bool has_losses = false;
 };
 

@@ -18,9 +18,9 @@ namespace hapnet::emulator::tools {
 /// The measurements of one direction, or of a round trip, datagram by datagram.
 struct MeasuredWay {
     std::vector<std::optional<base::Duration>> delays{}; // nullopt: lost, or not known
-    std::vector<bool> lost{};                            // as many
-    std::size_t reordered = 0; // arrived after one that was sent later, where it is known
-    std::optional<base::Duration> spacing{}; // from datagram to datagram, on average
+    std::vector<bool> lost{};                            // one for each of `delays`
+    std::size_t reordered = 0;               // arrived after a datagram sent later, as far as known
+    std::optional<base::Duration> spacing{}; // mean time from datagram to datagram
 
     void add(std::optional<base::Duration> delay, bool is_lost)
     {
@@ -37,7 +37,7 @@ struct Measurement {
     /// True if the direction in which a datagram was lost is not known. All losses are then counted
     /// in down.
     bool mixes_losses = false;
-    std::vector<std::string> remarks{}; // on what was read, for people
+    std::vector<std::string> remarks{}; // about the input, for people
 };
 
 /// A file of measurements: the name is for messages.

@@ -49,7 +49,7 @@ std::optional<FoundNumber> number_at(std::string_view text)
 
 /// "ttl=58" or "time<1": the word before the sign may be of any language.
 struct NamedNumber {
-    std::string key; // in lower-case letters, where it has letters of ASCII
+    std::string key; // ASCII letters in lower case
     double number = 0.0;
     bool is_below = false;
     bool has_unit = false; // a letter follows the number
@@ -120,7 +120,7 @@ std::optional<double> time_without_number(std::string_view line)
 /// A line of fping: `[1585061216.8] 192.0.2.1 : [0], 84 bytes, 20.59 ms (20.59 avg, 0% loss)`.
 struct FpingLine {
     std::string_view host;
-    std::string_view rest; // behind " : "
+    std::string_view rest; // text behind " : "
 };
 std::optional<FpingLine> fping_line(std::string_view line)
 {
@@ -261,7 +261,7 @@ private:
         }
     }
 
-    using Stamp = std::pair<std::uint64_t, double>; // of a number, in s
+    using Stamp = std::pair<std::uint64_t, double>; // sequence number and time in s
     static constexpr std::uint64_t missing_max = 1'000'000;
 
     std::uint64_t wraps_at_;
@@ -319,7 +319,7 @@ std::optional<std::uint64_t> first_number(std::string_view header)
 
 base::Result<Measurement> read_numbered(std::string_view text)
 {
-    constexpr std::uint64_t echo_numbers = 65'536; // of 16 bits
+    constexpr std::uint64_t echo_numbers = 65'536; // sequence numbers have 16 bits
     NumberedAnswers answers{echo_numbers};
     base::LineReader lines{text};
     std::optional<std::uint64_t> first;
@@ -333,7 +333,7 @@ base::Result<Measurement> read_numbered(std::string_view text)
         }
         is_summary_next = is_above_summary(*line);
         auto told = told_with_number(*line);
-        constexpr std::string_view unanswered = "icmp_seq "; // of macOS: "timeout for icmp_seq 3"
+        constexpr std::string_view unanswered = "icmp_seq "; // macOS: "timeout for icmp_seq 3"
         const auto place = line->find(unanswered);
         if (!told.sequence && place != std::string_view::npos) {
             const auto number = number_at(line->substr(place + unanswered.size()));

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_regimes = 4;
 constexpr std::size_t most_classes = 32;
-constexpr std::size_t rows_to_begin = 20'000; // of the tries
+constexpr std::size_t rows_to_begin = 20'000; // used by the first tries
 constexpr std::size_t rows_to_choose = 200'000;
 constexpr std::size_t rows_min = 200;
 constexpr double exits_min = 10.0;
@@ -27,14 +27,14 @@ constexpr double exits_min = 10.0;
 // Symbols: a class of delays, then these two.
 constexpr std::uint8_t lost_symbol = most_classes;
 constexpr std::uint8_t unknown_symbol = most_classes + 1;
-constexpr std::size_t symbols = most_classes + 1; // that a state has a probability of
+constexpr std::size_t symbols = most_classes + 1; // symbols that a state can emit
 
 /// A series, in which delays stand in classes.
 struct Series {
     std::vector<std::uint8_t> rows{};
     std::size_t classes = 0;
     std::array<double, most_classes> mean{}; // delay in each, in ns
-    std::array<double, symbols> share{};     // of all rows
+    std::array<double, symbols> share{};     // share of all rows
 };
 
 /// Classes of sorted delays. Classes of equal numbers alone would put the slowest delays of a good
@@ -69,11 +69,11 @@ public:
     }
 
 private:
-    static constexpr std::size_t delays_min = 10; // in a class
+    static constexpr std::size_t delays_min = 10; // fewest delays in a class
 
     struct Cut {
         std::size_t place = 0;
-        double gain = 0.0; // of squared deviations within classes, which it takes away
+        double gain = 0.0; // reduction of squared deviations within classes
     };
 
     /// Sums the logarithms of the distance from the least delay: deviations are those of
@@ -111,8 +111,8 @@ private:
     }
 
     const std::vector<double>& sorted_;
-    std::vector<double> sums_{0.0};                    // of the logarithms before each delay
-    std::vector<std::size_t> ends_{0, sorted_.size()}; // of the classes
+    std::vector<double> sums_{0.0};                    // sums of the logarithms before each delay
+    std::vector<std::size_t> ends_{0, sorted_.size()}; // where the classes end
 };
 
 Series series_of(const MeasuredWay& way)
@@ -156,7 +156,7 @@ public:
     Vector begin{};
     std::array<Vector, K> steps{};
     std::array<Vector, symbols> emits{}; // [symbol][state]
-    std::array<Vector, K> counts{};      // expected steps
+    std::array<Vector, K> counts{};      // expected steps from state to state
     double log_likelihood = -std::numeric_limits<double>::infinity();
 
     /// Makes states that take the delays between shares of all, and lose equal shares.
@@ -272,7 +272,7 @@ private:
         ahead_.resize(count);
         scale_.resize(count);
         log_likelihood = 0.0;
-        double product = 1.0; // of scales, so that few logarithms are taken
+        double product = 1.0; // product of scales: saves logarithms
         Vector now = begin;
         for (std::size_t row = 0; row < count; ++row) {
             if (row > 0) {

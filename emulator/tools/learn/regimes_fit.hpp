@@ -14,19 +14,19 @@ namespace hapnet::emulator::tools {
 
 /// One regime that was found in a series.
 struct RegimeFit {
-    std::vector<std::uint8_t> is_own{}; // 1: row n is of it, drawn by its probability
-    double rows = 0.0;                  // expected
-    double lost = 0.0;                  // expected, of these
-    double exits = 0.0;                 // expected: how often it ended
-    double stay_rows = 0.0;             // mean, of exponential stays
-    std::vector<double> followers{};    // how often each of the regimes followed; adds up to 1
+    std::vector<std::uint8_t> is_own{}; // 1: row n is in this regime, drawn by probability
+    double rows = 0.0;                  // expected number of rows
+    double lost = 0.0;                  // expected number of lost ones among them
+    double exits = 0.0;                 // expected number of times that it ended
+    double stay_rows = 0.0;             // mean length of its stays, in rows
+    std::vector<double> followers{};    // share in which each regime followed; sum 1
 };
 
 /// Regimes of a series, ascending by their mean delays.
 struct RegimesFit {
     std::vector<RegimeFit> regimes{};
     double log_likelihood = 0.0;
-    double bic = 0.0; // Schwarz, Annals of Statistics 6, 1978: the least is the best
+    double bic = 0.0; // less is better (Schwarz, Annals of Statistics 6, 1978)
 };
 
 /// Fits `count` regimes, 1 to 4, to delays and losses together: a hidden Markov chain whose states

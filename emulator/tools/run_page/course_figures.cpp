@@ -52,7 +52,7 @@ base::Result<Path> changed(const Path& before, const Json& settings)
         if (const auto of = parse_way(way)) names.flows.emplace_back(parts_of(of->path).flow);
         auto setting = parse_setting(key, text, no_files, names);
         if (!setting) return tl::unexpected{setting.error()};
-        setting->path.clear(); // the statistics of one path have its own settings alone
+        setting->path.clear(); // statistics of one path have only its own settings
         read.push_back(*std::move(setting));
     }
     return with_settings(before, read);
@@ -142,15 +142,15 @@ struct Measured {
 struct Kind {
     std::string_view name;
     page::Axis y;
-    std::function<double(const Conditions&)> asked; // none: it cannot be asked for
+    std::function<double(const Conditions&)> asked; // empty: it cannot be asked for
     std::function<double(const Measured&)> measured;
-    std::function<page::Range(const Measured&)> spread; // none: no band
+    std::function<page::Range(const Measured&)> spread; // empty: no band is drawn
     std::string about;
 };
 
 /// The data of one figure.
 struct Course {
-    std::vector<Knot> knots; // empty: they cannot be read
+    std::vector<Knot> knots; // empty: the conditions cannot be read
     double asked_until_s = 0.0;
     double length_s = 0.0;
     const Json& statistics;

@@ -26,8 +26,8 @@ namespace hapnet::emulator::tools {
 /// A direction of a run.
 struct RunDirection {
     Direction direction = Direction::up;
-    const nlohmann::ordered_json& statistics; // of this direction
-    const Conditions* conditions = nullptr;   // null: they changed
+    const nlohmann::ordered_json& statistics; // statistics of this direction
+    const Conditions* conditions = nullptr;   // null: they changed during the run
     std::span<const Fate> fates;
     double spacing_s = 0.0; // mean time between two datagrams
 };
@@ -53,7 +53,7 @@ struct RunDirection {
 /// The course of a run, in a figure each of those of delay, loss, rate and queue that have values.
 struct CourseFigures {
     std::vector<page::Figure> figures;
-    std::string why_not_asked; // empty: they have what was asked for, too
+    std::string why_not_asked; // why figures lack what was asked for; empty: they have it
 };
 
 /// Figures of the conditions that were asked for and of the measurements over time. A change is a

@@ -23,7 +23,7 @@ namespace hapnet::emulator::tools {
 namespace {
 
 using page::Json;
-using Rows = std::vector<std::vector<std::string>>; // texts
+using Rows = std::vector<std::vector<std::string>>; // texts of the cells
 
 /// "–" of what is not there.
 std::string text_of(const nlohmann::ordered_json& value)
@@ -32,7 +32,7 @@ std::string text_of(const nlohmann::ordered_json& value)
     if (value.is_string()) return value.get<std::string>();
     if (!value.is_number_float()) return value.dump();
     const double number = value.get<double>();
-    constexpr double four_digits = 1e4; // from there on whole numbers, without an exponent
+    constexpr double four_digits = 1e4; // from here on: whole numbers, no exponent
     return std::abs(number) < four_digits ? fmt::format("{:.4g}", number)
                                           : fmt::format("{:.0f}", number);
 }
@@ -298,7 +298,7 @@ page::Section course_of(const RunRecord& run)
     return section;
 }
 
-constexpr std::size_t asked_length_max = 200; // characters; more does not say it at a glance
+constexpr std::size_t asked_length_max = 200; // characters; longer texts are not read at a glance
 
 /// The conditions of the start in one sentence: " Asked, both ways: delay 30ms, loss 2%." Empty
 /// where they are too many for one.

@@ -15,11 +15,11 @@ namespace hapnet::emulator::tools {
 /// The files that a run has written.
 struct RunRecord {
     nlohmann::ordered_json statistics; // as --stats writes them; an object
-    Profile profile;                   // of the start
+    Profile profile;                   // profile at the start of the run
     std::optional<Fates> fates;        // nullopt: the run wrote none
     std::optional<Verification> verification;
-    std::string why_unverified; // where there is no verification
-    std::string link{};         // whose statistics these are, of a run with several paths
+    std::string why_unverified; // why there is no verification
+    std::string link{};         // name of the link, for a run with several paths
     // The names of the two files, which figures name as their sources.
     std::string statistics_file{};
     std::string fates_file{};

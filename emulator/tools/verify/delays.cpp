@@ -17,7 +17,7 @@ namespace {
 
 using Delays = std::vector<base::Duration>;
 
-constexpr std::size_t delays_max = 1'000'000; // more make no test sharper that matters
+constexpr std::size_t delays_max = 1'000'000; // more do not improve a test noticeably
 
 bool is_constant(const Variation& variation)
 {

@@ -14,7 +14,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr std::size_t delays_min = 100; // for the laws of the statistics
+constexpr std::size_t delays_min = 100; // fewer are too few for the statistics' laws
 
 TestResult too_few(std::string name)
 {

@@ -20,7 +20,7 @@ std::string shares(double expected, double observed, std::uint64_t datagrams)
                        100.0 * observed, datagrams);
 }
 
-constexpr double expected_min = 5.0; // in a bin of a chi-square test
+constexpr double expected_min = 5.0; // fewest expected in a bin of a chi-square test
 
 /// The result of a chi-square test once its bins have been filled.
 struct ChiSquare {
@@ -120,7 +120,7 @@ TestResult test_number_of_runs(const LossTally& tally, double alpha)
     const auto n = static_cast<double>(tally.datagrams());
     const auto lost = static_cast<double>(tally.losses());
     const double passed = n - lost;
-    if (std::min(lost, passed) < 20.0) { // below it the law is not near enough to a normal one
+    if (std::min(lost, passed) < 20.0) { // with fewer the law is not near enough to normal
         return unable("number of runs", "fewer than 20 losses, or than 20 datagrams that pass");
     }
     const double mean = 2.0 * lost * passed / n + 1.0;

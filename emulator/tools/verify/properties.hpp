@@ -18,8 +18,8 @@ namespace hapnet::emulator::tools {
 /// The losses of a direction: entry n is that of datagram n.
 struct LossRecord {
     std::vector<std::uint8_t> lost;             // 1: lost
-    std::vector<std::vector<LossState>> states; // of each law
-    bool is_hidden = false; // datagrams were dropped before the laws of loss could take them
+    std::vector<std::vector<LossState>> states; // for each law, the states of all datagrams
+    bool is_hidden = false; // some datagrams were dropped before the laws of loss
 };
 [[nodiscard]] LossRecord loss_record(std::span<const Fate> fates, std::size_t laws);
 

@@ -40,7 +40,7 @@ Matrix matrix_product(const Matrix& a, const Matrix& b)
     return c;
 }
 
-constexpr std::uint64_t stays_min = 10; // to tell anything
+constexpr std::uint64_t stays_min = 10; // fewer stays allow no verdict
 
 std::string regime_words(const Regime& regime) { return fmt::format("regime {}", regime.name); }
 
@@ -79,7 +79,7 @@ Results verify_passages(std::span<const Regime> regimes, std::size_t from,
 TestResult verify_stays(const Regime& regime, std::size_t index, std::span<const Fate> fates,
                         double remains, double alpha)
 {
-    LossTally runs; // of datagrams in the regime, as it counts those of losses
+    LossTally runs; // runs of datagrams in the regime
     std::uint64_t left = 0;
     std::uint64_t stayed = 0;
     for (std::size_t i = 0; i < fates.size(); ++i) {

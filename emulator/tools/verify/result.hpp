@@ -13,14 +13,14 @@ namespace hapnet::emulator::tools {
 enum class Outcome : std::uint8_t {
     passed,
     failed,
-    unable, // the evidence is too little, or of the wrong kind, for this test
+    unable, // the test has too little evidence, or the wrong kind
 };
 constexpr auto names_of(base::Tag<Outcome>) { return base::names("passed", "failed", "unable"); }
 
 /// The result of one test on the observations.
 struct TestResult {
     std::string name;                // "share lost"
-    double statistic = 0.0;          // what it is says the sentence
+    double statistic = 0.0;          // its meaning is in `sentence`
     std::optional<double> p_value{}; // two-sided; nullopt: exact, or unable
     Outcome outcome = Outcome::unable;
     std::string sentence; // expected and observed, in words

@@ -39,8 +39,8 @@ private:
     std::uint64_t losses_ = 0;
     std::uint64_t pairs_[4] = {};
     std::vector<std::uint64_t> runs_{};
-    std::size_t run_ = 0; // losses up to here
-    bool began_ = false;  // the run of before datagram 0 is over
+    std::size_t run_ = 0; // length of the run of losses in progress
+    bool began_ = false;  // a datagram that was not lost has come: the first run is over
     bool was_lost_ = false;
     std::uint64_t ended_runs_ = 0;
 };
@@ -48,8 +48,8 @@ private:
 /// Counts of two sequences of losses, side by side.
 struct PairTally {
     std::uint64_t datagrams = 0;
-    std::uint64_t first = 0;  // lost by the first
-    std::uint64_t second = 0; // by the second
+    std::uint64_t first = 0;  // losses in the first sequence
+    std::uint64_t second = 0; // losses in the second sequence
     std::uint64_t both = 0;
 
     void add(bool first_lost, bool second_lost)

@@ -18,17 +18,17 @@ namespace hapnet::emulator::tools {
 /// The conditions that a run was meant to have, the same from its first datagram to its last.
 struct Claim {
     Path path;
-    std::optional<base::Seed> seed{};        // known: the fates are drawn again and compared
-    std::optional<base::Duration> spacing{}; // of datagrams, if they came evenly; > 0
-    double alpha = 1e-6;                     // how often a test fails for a law that is right
-    std::string name{};                      // of the path, where there are several
+    std::optional<base::Seed> seed{};        // if known, the fates are drawn again and compared
+    std::optional<base::Duration> spacing{}; // between datagrams, if they came evenly; > 0
+    double alpha = 1e-6;                     // how often a test fails if the law is right
+    std::string name{};                      // name of the path, if there are several
 };
 
 /// The test results for the fates of a run.
 struct Verification {
     std::vector<TestResult> up;
     std::vector<TestResult> down;
-    std::vector<TestResult> between; // the directions
+    std::vector<TestResult> between; // tests of both directions together
 
     [[nodiscard]] bool failed() const;
 };

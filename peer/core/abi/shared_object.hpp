@@ -16,8 +16,8 @@
 namespace hapnet::peer {
 
 struct SharedObjectOptions {
-    std::string file;       // as the program that loads it opens it
-    std::string parameters; // for the algorithm, which alone knows what they mean
+    std::string file;       // path of the shared object, relative to the working directory
+    std::string parameters; // text for the algorithm, which alone knows its meaning
 
     friend bool operator==(const SharedObjectOptions&, const SharedObjectOptions&) = default;
 };
@@ -64,7 +64,7 @@ public:
 private:
     SharedObjectOptions options_;
     Loaded loaded_;
-    std::vector<std::max_align_t> memory_; // the algorithm's own
+    std::vector<std::max_align_t> memory_; // memory of the loaded algorithm
 };
 
 } // namespace hapnet::peer

@@ -100,7 +100,8 @@ base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const S
                                       "movable body that has turning = \"locked\"",
                                       name_of(algorithm)));
     }
-    BaseOptions rest = base->options(); // but for what these bodies have, too
+    // Compared below without the options that apply to these bodies.
+    BaseOptions rest = base->options();
     rest.stale = {};
     rest.let_go_after = {};
     rest.settle_after = BaseOptions{}.settle_after;

@@ -22,7 +22,7 @@ public:
     /// A sample that is later than the last one; others are ignored.
     void add(const glm::dvec3& sample, base::TimePoint at);
 
-    [[nodiscard]] base::TimePoint at() const { return at_; } // of the last sample
+    [[nodiscard]] base::TimePoint at() const { return at_; } // time of the last sample
     [[nodiscard]] const glm::dvec3& value() const { return value_; }
     [[nodiscard]] const glm::dvec3& slope() const { return slope_; } // per second
 

@@ -13,7 +13,7 @@ namespace hapnet::peer {
 class AtRest {
 public:
     struct Times {
-        std::optional<base::Duration> after; // from the moment when all let go; nullopt: never
+        std::optional<base::Duration> after; // wait after all hands have let go; nullopt: never
         base::Duration within{};             // duration of the motion
     };
 

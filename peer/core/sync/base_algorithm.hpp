@@ -51,12 +51,12 @@ private:
     };
     BaseOptions options_;
     AtRest at_rest_;
-    std::optional<Lead> lead_;                    // the stronger of two hands
-    double own_force_n_ = 0.0;                    // of the last tick, on the body
+    std::optional<Lead> lead_;                    // which hand leads, and since when
+    double own_force_n_ = 0.0;                    // force of this hand on the body in the last tick
     std::optional<base::Position> remote_before_; // where the remote had the body a tick ago
-    base::Displacement increments_;               // heard since the last tick
-    base::Displacement remote_moved_;             // since the last tick
-    base::Position place_before_;                 // of the body, before this tick
+    base::Displacement increments_;               // sum of the increments heard since the last tick
+    base::Displacement remote_moved_;             // remote displacement since the last tick
+    base::Position place_before_;                 // place of the body before this tick
 };
 
 } // namespace hapnet::peer

@@ -12,7 +12,7 @@
 namespace hapnet::peer {
 
 struct BaseTdpaOptions {
-    double damping_max_ns_per_m = 30.0; // of the controller
+    double damping_max_ns_per_m = 30.0; // greatest damping that the controller adds
     BaseOptions base{};
 
     friend bool operator==(const BaseTdpaOptions&, const BaseTdpaOptions&) = default;
@@ -57,9 +57,9 @@ private:
 
     BaseTdpaOptions options_;
     BaseAlgorithm base_;
-    std::vector<std::optional<std::uint32_t>> work_uj_; // of the others, as heard last
+    std::vector<std::optional<std::uint32_t>> work_uj_; // work of each of the others, as last heard
     double observed_j_ = 0.0;
-    bool follows_ = false; // the body has been where the others had it
+    bool follows_ = false; // only other hands touched the body in the last tick
 };
 
 } // namespace hapnet::peer

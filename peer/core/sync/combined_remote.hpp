@@ -14,11 +14,12 @@ struct CombinedRemote {
         base::Velocity velocity;
     };
 
-    bool heard = false;       // the state of one is neither stale nor let go
-    bool touching = false;    // the hand of one touches the body
-    base::Force force;        // of those hands on the body, their sum; zero when none touches
-    std::optional<Pose> pose; // of the body, also when the state is stale: on average where those
-                              // who touch have it, otherwise where the lowest id has it
+    bool heard = false;    // at least one state is neither stale nor older than let_go_after
+    bool touching = false; // at least one of these hands touches the body
+    base::Force force;     // sum of the forces of the touching hands on the body
+    /// The body's pose, also from a stale state: the average of those who touch the body, otherwise
+    /// the pose of the peer with the lowest id. nullopt: no pose was heard.
+    std::optional<Pose> pose;
 };
 
 /// Returns the other hands as they were last heard. Their forces fade with age, and none exceeds

@@ -54,12 +54,12 @@ public:
 
     /// The spring to the copy of one of the others.
     struct Spring {
-        std::optional<base::TimePoint> sent_at; // its newest word, on this peer's clock
+        std::optional<base::TimePoint> sent_at; // newest message's send time, on this peer's clock
         RecentAge ages;
         double stiffness_n_per_m = 0.0;
-        glm::dvec3 stretch{0.0}; // from this body to where it is drawn
+        glm::dvec3 stretch{0.0}; // from this body to where the spring draws it
         double tank_j = 0.0;
-        glm::dvec3 force{0.0}; // of this tick
+        glm::dvec3 force{0.0}; // force in this tick
 
         [[nodiscard]] double stored_j() const;
     };

@@ -26,7 +26,7 @@ struct Horizon {
     enum class Law : std::uint8_t { none, one_way, packet_age, fixed };
 
     Law law = Law::one_way;
-    base::Duration fixed{}; // of the law of this name
+    base::Duration fixed{}; // horizon of Law::fixed
 
     friend bool operator==(const Horizon&, const Horizon&) = default;
 };
@@ -52,7 +52,7 @@ struct DeadReckoningOptions {
     /// The limit of the estimated velocity. A hand reaches 0.3 m/s in the paper's task, which the
     /// nominal rule multiplies by the number of ticks between two messages: 60 at 80 % loss.
     double speed_max_m_per_s = 100.0;
-    double lead_max_m = 1.0; // of the prediction before the message's place
+    double lead_max_m = 1.0; // farthest that a prediction may lie from the received place
     /// Across a longer gap between two messages, by their sender's stamps, there is no velocity.
     base::Duration gap_max{std::chrono::milliseconds{250}};
     BaseOptions base{};
@@ -117,7 +117,7 @@ private:
         base::Position place;
         base::TimePoint arrived;
         base::TimePoint sent;
-        base::Duration age{}; // at its arrival; 0 when the clocks are unknown
+        base::Duration age{}; // age at arrival; 0 while the clocks are unknown
     };
     /// A prediction that another takes over from.
     struct Course {
@@ -133,12 +133,12 @@ private:
     DeadReckoningOptions options_;
     BaseAlgorithm base_;
     OneWayDelay delay_;
-    bool is_clock_known_ = false; // when the newest message came
+    bool is_clock_known_ = false; // the remote's clock was known when the newest message came
     std::optional<Fix> newest_;
     base::Velocity velocity_;
-    std::optional<Course> course_; // while a body follows with a blend
-    Course shown_;                 // in the last tick
-    bool has_news_ = false;        // since the last tick
+    std::optional<Course> course_; // replaced prediction, while the body follows with a blend
+    Course shown_;                 // blended prediction of the last tick
+    bool has_news_ = false;        // a message was taken since the last tick
 };
 
 } // namespace hapnet::peer

@@ -8,7 +8,7 @@ namespace hapnet::peer {
 
 namespace {
 
-constexpr std::uint32_t delay_memory = 500; // messages; SEP uses the median alone
+constexpr std::uint32_t delay_memory = 500; // messages in the mean; SEP uses only the median
 
 double dot_of(const glm::dvec3& a, const glm::dvec3& b)
 {

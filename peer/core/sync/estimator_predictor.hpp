@@ -12,13 +12,13 @@
 namespace hapnet::peer {
 
 struct EstimatorPredictorOptions {
-    base::Duration time_constant{std::chrono::milliseconds{10}}; // of the filters
+    base::Duration time_constant{std::chrono::milliseconds{10}}; // for both filters
     base::Duration force_ahead_max{std::chrono::milliseconds{10}};
     /// The hand's place is predicted by at most the median delay plus this.
     base::Duration hip_ahead_beyond_delay{std::chrono::milliseconds{20}};
-    /// Beyond the median delay plus this, a sample is predicted on less and less, ...
+    /// A sample older than the median delay plus this is extrapolated less and less.
     base::Duration fade_after{std::chrono::milliseconds{10}};
-    base::Duration fade_within{std::chrono::milliseconds{50}}; // ... down to not at all
+    base::Duration fade_within{std::chrono::milliseconds{50}}; // until no extrapolation is left
     /// The output changes by at most this: people notice steps from 0.5 N a tick on.
     double force_slew_n_per_s = 500.0;
     double hip_slew_m_per_s = 5.0;
@@ -89,11 +89,11 @@ private:
     OneWayDelay delay_;
     AlphaBeta force_;
     AlphaBeta hip_;
-    base::Force sample_;      // the last one, as limited
-    base::TimePoint arrived_; // of the last sample
-    bool touching_ = false;   // as the last sample had it
+    base::Force sample_;      // limited force of the newest sample
+    base::TimePoint arrived_; // arrival of the newest sample
+    bool touching_ = false;   // the hand touched in the newest sample
     bool has_heard_ = false;
-    std::optional<base::Force> force_shown_; // in the last tick
+    std::optional<base::Force> force_shown_; // predicted force of the last tick
     std::optional<base::Position> hip_shown_;
 };
 

@@ -78,7 +78,7 @@ HandSample HandHistory::between(std::int64_t tick, double tick_s) const
     const std::int64_t oldest = std::max<std::int64_t>(0, newest_ - ticks_max + 1);
     std::int64_t before = tick - 1, after = tick + 1;
     while (before >= oldest && !knows(before)) --before;
-    while (!knows(after)) ++after; // the newest is known
+    while (!knows(after)) ++after; // ends at the newest tick, which is known
     if (before < oldest) return {};
     const HandSample& from = entry(before).sample;
     const HandSample& to = entry(after).sample;

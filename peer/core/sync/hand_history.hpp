@@ -59,7 +59,7 @@ private:
     }
     [[nodiscard]] HandSample between(std::int64_t tick, double tick_s) const;
 
-    std::vector<Entry> entries_; // a ring
+    std::vector<Entry> entries_; // ring: a tick is at index tick % ticks_max
     std::int64_t newest_ = none;
 };
 
@@ -77,7 +77,8 @@ inline void says_grip(scene::HandTouch& touched, const HandSample& own)
 struct HeardHand {
     HandHistory history;
     SessionTicks ticks;
-    std::optional<RestAgreement::Word> told; // of the body; `knows`: this peer's hand
+    /// The body as the peer last told it. `knows` covers only this peer's hand.
+    std::optional<RestAgreement::Word> told;
 
     /// The tick of which a message tells; nullopt while the clocks are unknown, or when that is
     /// still to come.

@@ -110,7 +110,7 @@ Outcome Lag::tick(scene::World& world, const Situation& situation)
     if (!first_) first_ = now;
     if (!has_begun_ && is_ready(situation)) {
         has_begun_ = true;
-        const bool joins_late = *first_ > 0; // and has the body of now
+        const bool joins_late = *first_ > 0; // its copy begins with the body as it is now
         played_ = joins_late ? due - 1 : -1;
     }
     if (has_begun_) {

@@ -69,8 +69,8 @@ public:
 private:
     struct RemoteHand {
         HeardHand heard;
-        AgeQuantile ages;       // of its newest word, here
-        AgeQuantile ages_there; // of this peer's newest word, there
+        AgeQuantile ages;       // ages of its newest message at this peer
+        AgeQuantile ages_there; // ages of this peer's newest message at the other peer
     };
 
     void note_ages(const Situation& situation, std::int64_t now);
@@ -91,11 +91,11 @@ private:
     SessionTicks ticks_;
     double lag_ = 0.0; // ticks
     std::int64_t played_ = -1;
-    std::optional<std::int64_t> first_; // tick of this peer
+    std::optional<std::int64_t> first_; // session number of this peer's first tick
     bool has_begun_ = false;
     RestAgreement rest_;
-    base::Displacement way_a_tick_; // to where the other copy rests
-    std::int64_t way_ticks_ = 0;    // until it is there
+    base::Displacement way_a_tick_; // step of a tick toward where the other copy rests
+    std::int64_t way_ticks_ = 0;    // ticks left until the body is there
 };
 
 } // namespace hapnet::peer

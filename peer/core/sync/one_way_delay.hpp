@@ -32,7 +32,7 @@ private:
     static constexpr base::Duration step{std::chrono::microseconds{100}};
 
     std::uint32_t memory_;
-    std::uint32_t count_ = 0; // up to memory_
+    std::uint32_t count_ = 0; // number of delays in the mean, up to memory_
     double mean_s_ = 0.0;
     base::Duration median_{};
 };

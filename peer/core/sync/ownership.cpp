@@ -12,7 +12,7 @@ void Ownership::touch(BodySet bodies, std::uint16_t peer, base::TimePoint now)
 {
     const auto is_its = [peer](const Peer& each) { return each.id == peer || each.id == 0; };
     auto* const its = std::find_if(peers_.begin(), peers_.end(), is_its);
-    if (its == peers_.end()) return; // more than a session has
+    if (its == peers_.end()) return; // more peers than a session has
     its->id = peer;
     for (std::size_t i = 0; i < its->touched.size(); ++i)
         if ((bodies >> i & 1U) != 0) its->touched[i] = now;

@@ -40,7 +40,7 @@ public:
 
 private:
     struct Peer {
-        std::uint16_t id = 0; // 0: none
+        std::uint16_t id = 0; // 0: unused entry
         std::array<std::optional<base::TimePoint>, wire::bodies_max> touched{};
     };
     static constexpr std::size_t peers_max = 8;

@@ -99,7 +99,7 @@ double PoseCorrection::settle(const Copy& copy, std::size_t body)
         Motion& corrected = bodies_[body].corrected;
         corrected.way += (after.position - before.position).value;
         corrected.turn += scene::turn_between(before.orientation, after.orientation);
-        return 0.0; // of what no hand is on
+        return 0.0; // no energy is given: no hand is on the body
     }
     const auto error = error_in_past(copy, body);
     return error ? correct(copy, body, *error) : 0.0;
@@ -133,7 +133,7 @@ double PoseCorrection::correct(const Copy& copy, std::size_t body, const Motion&
 {
     if (base::norm(base::Displacement{error.way}) <= SharedPoses::same_place_m &&
         base::norm(base::Displacement{error.turn}) <= SharedPoses::same_angle_rad)
-        return 0.0; // so that it may sleep
+        return 0.0; // so that the body may sleep
     const SharedBody& shared = copy.situation.poses->bodies()[body];
     const double tick_s = base::to_seconds(copy.situation.tick);
     const double most = rates_.speed_m_per_s;

@@ -22,8 +22,9 @@ namespace hapnet::peer {
 class PoseCorrection {
 public:
     struct Rates {
-        double rate_hz = 20.0;       // at which a difference decays
-        double speed_m_per_s = 0.25; // the most: of the body, and of its farthest point by turning
+        double rate_hz = 20.0; // rate at which a difference decays
+        /// Greatest speed of the body, and of its farthest point by turning.
+        double speed_m_per_s = 0.25;
     };
     PoseCorrection(std::size_t bodies, const Rates& rates);
 
@@ -55,11 +56,11 @@ private:
         Motion corrected;
     };
     struct Body {
-        Motion corrected;                       // the sum of all corrections
-        glm::dvec3 force{0.0};                  // of all proxies, in the last tick
-        glm::dvec3 torque{0.0};                 // likewise, about its centre
-        std::optional<base::TimePoint> touched; // by the own hand, itself or by way of others
-        std::vector<Past> past;                 // a ring
+        Motion corrected;       // the sum of all corrections
+        glm::dvec3 force{0.0};  // force of all proxies on the body in the last tick
+        glm::dvec3 torque{0.0}; // torque of all proxies about its centre in the last tick
+        std::optional<base::TimePoint> touched; // last touch by this hand, also by way of others
+        std::vector<Past> past;                 // ring of past_max ticks
     };
 
     [[nodiscard]] double follow(const Copy& copy, std::size_t body, std::size_t leader);

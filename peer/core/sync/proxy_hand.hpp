@@ -19,13 +19,13 @@ namespace hapnet::peer {
 /// Options of a proxy, which stands for another hand. docs/design/remote-proxy.md has the
 /// equations.
 struct ProxyHandOptions {
-    HandDynamics hand{}; // where the hello says nothing
+    HandDynamics hand{}; // where the hello gives no values
     base::Duration anchor_filter{std::chrono::milliseconds{20}};
     double anchor_speed_m_per_s = 0.4;
     /// The intention's velocity is smoothed over this share of its age, since the age multiplies
-    /// its noise, ...
+    /// its noise, and over at least velocity_filter_min.
     double velocity_filter = 0.15;
-    base::Duration velocity_filter_min{std::chrono::milliseconds{20}}; // ... and at least so long
+    base::Duration velocity_filter_min{std::chrono::milliseconds{20}}; // least smoothing time
     /// A resting hand wanders by 5 to 7 mm/s, a carrying one moves at 67.
     double believed_above_m_per_s = 0.015;
     base::Duration memory{std::chrono::seconds{2}};
@@ -112,7 +112,8 @@ public:
     [[nodiscard]] double eta() const { return eta_; }
     /// The time at which it last touched a body, on this peer's clock.
     [[nodiscard]] const std::optional<base::TimePoint>& touched_at() const { return touched_at_; }
-    [[nodiscard]] base::TimePoint sent_at() const { return sent_at_; } // on this peer's clock
+    /// The time at which the newest message was sent, on this peer's clock.
+    [[nodiscard]] base::TimePoint sent_at() const { return sent_at_; }
     [[nodiscard]] const HandDynamics& dynamics() const { return hand_; }
     [[nodiscard]] const glm::dvec3& intention() const { return intention_; } // as last heard
     /// The velocity of the intention, smoothed.
@@ -148,39 +149,39 @@ private:
     struct Heard {
         std::uint32_t tick_number = 0;
         glm::dvec3 place{0.0};
-        glm::dvec3 velocity{0.0}; // smoothed
+        glm::dvec3 velocity{0.0}; // smoothed velocity of the intention
     };
     void enter(const View& view);
     void take_dynamics(const wire::HandModel& said);
     void learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s);
     [[nodiscard]] const Heard* heard_at(std::uint32_t tick_number);
 
-    static constexpr std::size_t words_max = 1024; // a second of them
+    static constexpr std::size_t words_max = 1024; // messages: about a second of them
     static constexpr double trust_filter_s = 0.05;
 
     ProxyHandOptions options_;
-    HandDynamics hand_; // of its owner
+    HandDynamics hand_; // dynamics of the owner's hand
 
     // Values from the remote's messages.
     bool has_heard_ = false;
-    std::uint32_t tick_number_ = 0; // of the newest word
+    std::uint32_t tick_number_ = 0; // tick of the newest message
     std::uint32_t work_uj_ = 0;
     base::TimePoint sent_at_;
     std::optional<base::TimePoint> touched_at_;
     glm::dvec3 intention_{0.0};
-    glm::dvec3 velocity_{0.0}; // of the intention, smoothed
+    glm::dvec3 velocity_{0.0}; // smoothed velocity of the intention
     glm::dvec3 contact_force_{0.0};
     RecentAge ages_;
-    std::vector<Heard> words_; // a ring
-    std::uint64_t heard_ = 0;  // so many words so far
-    std::uint64_t older_ = 0;  // the one that heard_at() gave last
+    std::vector<Heard> words_; // ring of words_max messages
+    std::uint64_t heard_ = 0;  // number of messages heard so far
+    std::uint64_t older_ = 0;  // number of the message at which heard_at() last stopped
 
     // Values that were learnt: means of products of predicted and true motion.
     double predicted_true_ = 0.0;
     double predicted_ = 0.0;
     double true_ = 0.0;
     double eta_ = 0.0;
-    double trust_ = 1.0; // g
+    double trust_ = 1.0; // g: how far the hand is trusted to be a spring
 
     // The hand in this copy.
     bool is_there_ = false;

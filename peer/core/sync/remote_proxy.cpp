@@ -134,7 +134,7 @@ Outcome RemoteProxy::tick(scene::World& world, const Situation& situation)
     world.tick();
     Outcome outcome;
     outcome.touched = world.touch(own_hand);
-    outcome.on_hand = outcome.touched.on_hand; // and nothing else: it feels what the proxies do
+    outcome.on_hand = outcome.touched.on_hand; // no remote force: the proxies push already
     own_hand_touches_ = outcome.touched.touching;
     if (own_hand_touches_) touched_ = situation.now;
     if (const auto& state = situation.remote.state()) outcome.remote_hip = state->hip;

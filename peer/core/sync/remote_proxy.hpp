@@ -99,18 +99,19 @@ private:
     static constexpr std::size_t past_max = 4096; // ticks
 
     RemoteProxyOptions options_;
-    std::vector<ProxyHand> proxies_; // of the others, in their order
+    std::vector<ProxyHand> proxies_; // one for each of the others, in their order
     std::vector<base::Force> rubbing_;
-    std::optional<PoseCorrection> poses_; // of bodies that turn, or several; else the rest is used
-    std::vector<Past> past_;              // a ring
+    /// Used for bodies that turn, or several; nullopt: correct() and remember() are used.
+    std::optional<PoseCorrection> poses_;
+    std::vector<Past> past_; // ring of past_max ticks
     std::uint64_t ticks_ = 0;
     double account_j_ = 0.0;
     double lent_j_ = 0.0; // the largest allowance so far
     double allowance_j_ = 0.0;
-    std::optional<base::TimePoint> touched_; // by the own hand
+    std::optional<base::TimePoint> touched_; // last touch by this peer's hand
     bool own_hand_touches_ = false;
     glm::dvec3 corrected_{0.0};   // the sum of all corrections
-    glm::dvec3 proxy_force_{0.0}; // of all proxies on the body, in the last tick
+    glm::dvec3 proxy_force_{0.0}; // force of all proxies on the body, in the last tick
 };
 
 } // namespace hapnet::peer

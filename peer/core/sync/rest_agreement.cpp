@@ -9,7 +9,7 @@ namespace hapnet::peer {
 namespace {
 
 constexpr double still_m = 1e-7;   // a body that has gone less than this rests
-constexpr double rounded_m = 1e-6; // what a message's rounding and `still_m` may come to
+constexpr double rounded_m = 1e-6; // bound of a message's rounding and `still_m` together
 
 bool are_apart(base::Position a, base::Position b, double by_m) { return base::norm(a - b) > by_m; }
 

@@ -19,9 +19,10 @@ class RestAgreement {
 public:
     /// The other copy at a tick of the session.
     struct Word {
-        std::size_t from = 0;    // whose copy it is
-        std::int64_t tick = -1;  // of the session
-        std::int64_t knows = -1; // until that tick, at least, it is made of the hands as they were
+        std::size_t from = 0;   // index of the peer whose copy it is
+        std::int64_t tick = -1; // tick of the session
+        /// Up to this tick at least, the copy was made from the true hands; -1: not known.
+        std::int64_t knows = -1;
         base::Position body;
     };
 
@@ -41,7 +42,7 @@ private:
     };
 
     Rest own_;
-    std::optional<Rest> others_; // as of when it knew all hands up to own_
+    std::optional<Rest> others_; // the other copy, since it knew all hands up to own_.since
     std::size_t from_ = 0;
 };
 

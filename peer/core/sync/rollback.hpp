@@ -15,7 +15,7 @@
 namespace hapnet::peer {
 
 struct RollbackOptions {
-    HandDynamics hand{.friction_n = 0.26}; // where the hello says nothing; an Omni's friction
+    HandDynamics hand{.friction_n = 0.26}; // where the hello gives no values; an Omni's friction
     double velocity_filter = 0.15;
     base::Duration velocity_filter_min{std::chrono::milliseconds{20}};
     double believed_above_m_per_s = 0.015;
@@ -81,7 +81,7 @@ public:
 
     /// The time for which the past waits for a peer that was never heard.
     static constexpr base::Duration waits_for{std::chrono::seconds{1}};
-    /// No more ticks than that are computed again.
+    /// The greatest number of ticks that are computed again.
     static constexpr std::int64_t resimulated_max = 1000;
     /// The least time for which a body rests before its places are compared.
     static constexpr base::Duration rests_for{std::chrono::milliseconds{100}};
@@ -91,10 +91,10 @@ private:
         explicit RemoteHand(const ProxyHandOptions& options) : learnt{options} {}
 
         HeardHand heard;
-        ProxyHand learnt;        // what its owner means to do
-        std::int64_t whole = -1; // until then nothing is missing
-        bool touches = false;    // as it said last
-        HandMotion motion{};     // of its model in the present
+        ProxyHand learnt;        // model of what the hand's owner means to do
+        std::int64_t whole = -1; // last tick up to which no sample is missing
+        bool touches = false;    // touches a body, by its newest message
+        HandMotion motion{};     // motion of its model in the present world
     };
 
     void begin(const scene::World& world, std::int64_t now);
@@ -119,7 +119,7 @@ private:
     std::optional<scene::World> present_;
     std::int64_t confirmed_ = -1;
     bool has_news_ = false;
-    glm::dvec3 offset_{0.0}; // of the body as it is shown, from the present
+    glm::dvec3 offset_{0.0}; // from the body in the present world to where it is shown
     glm::dvec3 offset_speed_{0.0};
     std::optional<base::Position> shown_;
     RestAgreement rest_;

@@ -36,7 +36,7 @@ public:
     void forget() { missing_ = 0; }
 
 private:
-    std::int64_t missing_ = 0; // ticks that it did not play
+    std::int64_t missing_ = 0; // ticks of the session that the peer did not play
 };
 
 } // namespace hapnet::peer

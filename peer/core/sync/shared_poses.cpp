@@ -133,7 +133,7 @@ void SharedPoses::note_contacts(const scene::World& world, base::TimePoint now)
             if (contact.other.kind != scene::Thing::Kind::body) continue;
             const bool is_first = contact.body == bodies_[i].id;
             const auto other = index_of(is_first ? contact.other.index : contact.body);
-            if (!other) continue; // it is fixed, and connects nothing
+            if (!other) continue; // a fixed body connects nothing
             touching_[i][*other] = now;
             touching_[*other][i] = now;
         }

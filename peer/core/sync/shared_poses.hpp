@@ -42,7 +42,7 @@ public:
     /// Another peer whose hand touches a body.
     struct Toucher {
         const Remote* other = nullptr;
-        std::size_t index = 0; // of the other
+        std::size_t index = 0; // index of the other peer
         std::size_t body = 0;
     };
     /// The remote hands that touch something in a tick, in the order of their ids.
@@ -72,7 +72,7 @@ public:
                 const Remote& other) const;
     /// Moves a body that no hand moves, after a while, to where its owner has it.
     void settle(scene::World& world, const Situation& situation, std::size_t body);
-    /// True if that while is over, and the body goes there.
+    /// True if the body is on its way to where its owner has it.
     [[nodiscard]] bool is_settling(std::size_t body) const { return blends_[body].has_value(); }
     /// Puts all bodies where one of the others has them, which has told of all.
     void take_over(scene::World& world, const Remote& other) const;
@@ -108,8 +108,8 @@ private:
     AtRest::Times times_;
     Ownership ownership_;
     std::array<std::array<std::optional<base::TimePoint>, wire::bodies_max>, wire::bodies_max>
-        touching_{};                                 // of two bodies, when last
-    std::array<BodySet, wire::bodies_max> groups_{}; // by body: those that it touches, and itself
+        touching_{};                                 // when two bodies last touched
+    std::array<BodySet, wire::bodies_max> groups_{}; // group of each body, itself included
     std::array<Mover, wire::bodies_max> movers_{};
     std::array<std::uint16_t, wire::bodies_max> owners_{};
     std::array<std::optional<base::TimePoint>, wire::bodies_max> untouched_since_{};

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t own_hand = 0;
 /// algorithms never do.
 class RemoteClock {
 public:
-    RemoteClock() = default; // not known
+    RemoteClock() = default; // the clock is unknown
     /// Follows ClockSync::trusted().
     explicit RemoteClock(const ClockSync& sync) : sync_{&sync} {}
     /// Takes an estimate that was computed before.
@@ -53,37 +53,39 @@ struct ReceivedState {
     bool taken = true;
     RemoteClock clock{};
     base::Duration tick{std::chrono::milliseconds{1}};
-    double force_max_n = scene::force_max_n; // that a contact of this scene can exert
-    std::size_t from = 0;                    // which of the others sent it, in their order
-    wire::HandModel hand{};                  // of its sender, as far as it has said
-    base::TimePoint start{};                 // of the session, on this peer's clock
+    double force_max_n = scene::force_max_n; // greatest force of a contact in this scene
+    std::size_t from = 0;                    // index of the sender among the others
+    wire::HandModel hand{};                  // the sender's hand, as far as it has described it
+    base::TimePoint start{};                 // session start on this peer's clock
 };
 
 /// The input of one tick of an algorithm, besides this peer's hand, which is in the world.
 struct Situation {
     base::TimePoint now;
-    scene::BodyId body = 0;         // the shared one, or the first of them
+    scene::BodyId body = 0;         // the shared body, or the first of several
     std::span<const Remote> others; // at least one, in the order of their ids
-    const Remote& remote;           // the one with the lowest id of those that are heard
-    bool yields = false; // at rest, this peer takes the other's pose: one with a lower id is heard
-    base::Duration tick{std::chrono::milliseconds{1}}; // from here on as in ReceivedState
+    const Remote& remote;           // the one with the lowest id among those that are heard
+    /// A peer with a lower id is heard: this peer takes over its pose of a body at rest.
+    bool yields = false;
+    // The next three are as in ReceivedState; the clock is that of `remote`.
+    base::Duration tick{std::chrono::milliseconds{1}};
     RemoteClock clock{};
     double force_max_n = scene::force_max_n;
-    std::size_t lower_ids = 0;                     // so many of the others
-    const scene::HandDescription* hands = nullptr; // of the scene; nullptr: without friction
-    base::TimePoint start{};                       // as in ReceivedState
-    std::int64_t number = 0; // of this tick, from 0: so many states were sent in the session before
-    SharedPoses* poses = nullptr; // of the bodies; nullptr: one that does not turn is shared
+    std::size_t lower_ids = 0; // number of the others with a lower id than this peer
+    const scene::HandDescription* hands = nullptr; // nullptr: hands without friction
+    base::TimePoint start{};                       // session start on this peer's clock
+    std::int64_t number = 0;      // ticks that this peer has played before, in the session
+    SharedPoses* poses = nullptr; // nullptr: one shared body that does not turn
 };
 
 /// The result of one tick of an algorithm.
 struct Outcome {
-    scene::HandTouch touched;     // by this peer's hand
-    base::Force on_hand;          // what that hand is to feel
-    base::Duration late{};        // by so much later than it would be without an algorithm
+    scene::HandTouch touched;     // touch of this peer's hand
+    base::Force on_hand;          // force that this peer's hand is to feel
+    base::Duration late{};        // delay of on_hand that the algorithm adds
     bool remote_touching = false; // whether the remote hand counts as touching
-    base::Force remote_force;     // that it counts as exerting on the body
-    std::optional<base::Position> remote_hip; // where it is taken to be: to be shown, not felt
+    base::Force remote_force;     // force that the remote hand counts as exerting on the body
+    std::optional<base::Position> remote_hip; // place of the remote hand, to be shown and not felt
 };
 
 /// The delay of a message from the stamps of both sides; nullopt while the clocks are unknown, or

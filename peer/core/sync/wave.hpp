@@ -11,7 +11,7 @@
 namespace hapnet::peer {
 
 struct WaveOptions {
-    double impedance_ns_per_m = 10.0; // as the drag of the paper's cube
+    double impedance_ns_per_m = 10.0; // equal to the drag of the paper's cube
 
     friend bool operator==(const WaveOptions&, const WaveOptions&) = default;
 };
@@ -53,11 +53,11 @@ private:
     };
     /// The channel to the copy of one of the others.
     struct Channel {
-        bool is_open = false;               // it has been heard
-        std::optional<glm::dvec3> incoming; // for the next tick
-        std::vector<Sent> ring;             // what went out, by tick
-        std::uint64_t sent = 0;             // so many
-        std::uint64_t oldest_of_use = 0;    // of these: echoes do not go back
+        bool is_open = false;               // the other peer has been heard
+        std::optional<glm::dvec3> incoming; // wave that acts in the next tick
+        std::vector<Sent> ring;             // sent waves, one per tick
+        std::uint64_t sent = 0;             // number of waves sent so far
+        std::uint64_t oldest_of_use = 0;    // number of the oldest wave that an echo may still name
     };
     [[nodiscard]] glm::dvec3 sent_at(Channel& channel, base::TimePoint at) const;
     /// Returns the wave that leaves a copy with this velocity and incoming wave. It is limited to
@@ -67,8 +67,8 @@ private:
     static constexpr std::size_t ring_max = 4096; // ticks
 
     WaveOptions options_;
-    double root_;     // of 2 b
-    double wave_max_; // square root of a power in W
+    double root_;     // square root of twice the impedance
+    double wave_max_; // greatest wave, in sqrt(W)
     std::vector<Channel> channels_;
     AtRest at_rest_;
 };

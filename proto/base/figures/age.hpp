@@ -14,8 +14,8 @@ namespace hapnet::base {
 /// Age of information (Kaul, Yates, Gruteser, "Real-time status: how often should one update?",
 /// 2012): the time since the newest update that has arrived was sent. nullopt: not measured.
 struct Age {
-    std::optional<Duration> mean;      // over time
-    std::optional<Duration> peak_mean; // of the peaks, each just before a newer update arrives
+    std::optional<Duration> mean;      // mean over time
+    std::optional<Duration> peak_mean; // mean of the peaks, each just before a newer update arrives
     std::optional<Duration> peak_max;
 
     friend bool operator==(const Age&, const Age&) = default;
@@ -69,7 +69,7 @@ private:
     };
 
     std::optional<Update> newest_;
-    Duration time_{};       // that counts
+    Duration time_{};       // time during which the age was measured
     double area_ns2_ = 0.0; // the age, integrated over that time
     RunningMoments peaks_;
     Duration peak_max_{};

@@ -36,9 +36,9 @@ private:
 /// Counts of what has arrived of a numbered stream.
 struct ArrivalCounts {
     std::uint64_t sent = 0;       // numbers up to the highest that has arrived
-    std::uint64_t received = 0;   // different numbers
+    std::uint64_t received = 0;   // different numbers that have arrived
     std::uint64_t duplicates = 0; // further copies, which count nowhere else
-    std::uint64_t reordered = 0;  // after one with a higher number (RFC 4737, 3.3)
+    std::uint64_t reordered = 0;  // arrivals after one with a higher number (RFC 4737, 3.3)
 
     friend bool operator==(const ArrivalCounts&, const ArrivalCounts&) = default;
 };

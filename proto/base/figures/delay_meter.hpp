@@ -34,7 +34,7 @@ public:
 private:
     Collection delays_;
     Collection variations_;
-    std::optional<Duration> before_; // as `apart`
+    std::optional<Duration> before_; // `apart` of the last delay
 };
 
 } // namespace hapnet::base

@@ -13,7 +13,7 @@ namespace hapnet::base {
 /// Mean and standard deviation of a sample of durations, to the nearest nanosecond.
 struct Moments {
     Duration mean{};
-    std::optional<Duration> sd; // of the sample (n - 1); nullopt for a single value
+    std::optional<Duration> sd; // standard deviation (n - 1); nullopt for a single value
 
     friend bool operator==(const Moments&, const Moments&) = default;
 };

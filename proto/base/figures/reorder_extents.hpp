@@ -33,7 +33,7 @@ public:
         // The first arrival with a higher number was in order: all before it had lower numbers.
         const auto oldest = recorded_ > looks_back ? recorded_ - looks_back : 0;
         auto low = oldest;
-        auto high = recorded_ - 1; // has a higher number
+        auto high = recorded_ - 1; // this record has a higher number
         while (low < high) {
             const auto middle = low + (high - low) / 2;
             if (records_[middle % looks_back].number > number) {
@@ -48,7 +48,7 @@ public:
 private:
     struct Record {
         std::uint64_t number = 0;
-        std::uint64_t place = 0; // among all arrivals
+        std::uint64_t place = 0; // position among all arrivals
     };
 
     std::array<Record, looks_back> records_{}; // a ring, ascending in number and place

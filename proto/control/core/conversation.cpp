@@ -74,7 +74,7 @@ void Conversation::answer(const std::string& line, const Subject& subject, base:
 {
     if (line.size() > line_max_) {
         send(refusal(fmt::format("a line of more than {} bytes", line_max_)), now);
-        has_ended_ = true; // what follows is its rest, and no request
+        has_ended_ = true; // the bytes that follow are the rest of that line, not a request
         input_.clear();
         return;
     }

@@ -93,7 +93,7 @@ private:
     struct Watching {
         WatchRequest request;
         base::TimePoint next_line;
-        FrameSource frames{}; // of a watch of frames
+        FrameSource frames{}; // source of the frames; null: a watch of statistics
         std::uint64_t left_out = 0;
     };
 
@@ -108,9 +108,9 @@ private:
 
     std::size_t line_max_;
     std::string input_;
-    std::size_t searched_ = 0; // of input_, without a newline
+    std::size_t searched_ = 0; // first bytes of input_ that are known to hold no newline
     std::string output_;
-    std::size_t written_ = 0; // of output_
+    std::size_t written_ = 0; // bytes of output_ that have been sent
     base::TimePoint last_progress_{};
     std::variant<std::monostate, Waiting, Watching> pending_;
     bool has_ended_ = false;

@@ -52,7 +52,7 @@ private:
         if (!error_) error_ = std::move(what);
     }
 
-    std::vector<std::set<std::string>> keys_; // of the objects that are open
+    std::vector<std::set<std::string>> keys_; // keys of the open objects, by nesting
     std::size_t values_ = 0;
     std::optional<std::string> error_;
 };
