@@ -31,7 +31,7 @@ std::string_view describe(Use use)
 {
     switch (use) {
     case Use::read_only:
-        return "read-only: its torque per count is not known; see docs/use/hardware.md to measure "
+        return "read-only: its torque per count is not known; see docs/use/devices.md to measure "
                "it";
     case Use::uncalibrated: return "force uncalibrated, at most a quarter of full scale";
     case Use::measured: return "force by a measured table";

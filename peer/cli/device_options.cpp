@@ -216,7 +216,7 @@ cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice)
               choice.options.uncalibrated_force)
         .under(group);
     add("--omni-torque", "FILE",
-        "omni1394: the measured torque of its motors per count (docs/use/hardware.md)",
+        "omni1394: the measured torque of its motors per count (docs/use/devices.md)",
         cli::into(choice.options.omni_torque, omni_profile_at));
     add_hid_force(command, choice.options.hid_force_n);
     add("--hid-travel", "LENGTH",
