@@ -8,7 +8,10 @@
 #include <new>
 
 #if defined HAPNET_SANITIZED
-#include <sanitizer/allocator_interface.h>
+// As in sanitizer/allocator_interface.h, which GCC 12 does not install.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*,
+                                                                           std::size_t),
+                                                         void (*on_free)(const volatile void*));
 #endif
 
 namespace {
