@@ -5,12 +5,11 @@
 from __future__ import annotations
 
 import math
-import random
 from dataclasses import dataclass
-from typing import Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Dict, NamedTuple, Optional
 
-RESAMPLES = 10_000
-TAIL = RESAMPLES // 40  # 2.5 %
+from hapnet.student import mean_of
+
 GOOD, NOT_GOOD, UNDECIDED = "good", "not good", "undecided"
 
 
@@ -73,8 +72,9 @@ class Limits:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a metric says of a group, in its unit. `values` are by seed, and `ci_low` and `ci_high`
-    are interval() of them. `verdict` is Limits.verdict()."""
+    """What a metric says of a group, in its unit. `values` are by seed. `ci_low` and `ci_high`
+    are the ends of the 95 % interval of their mean by Student's distribution; None for a single
+    seed. `verdict` is Limits.verdict()."""
 
     group: Group
     values: Dict[int, float]
@@ -84,25 +84,7 @@ class Verdict:
     verdict: Optional[str]
 
 
-def mean(values: Sequence[float]) -> float:
-    """Of at least one value; of equal ones that value, whatever a sum would round."""
-    return min(max(math.fsum(values) / len(values), min(values)), max(values))
-
-
-def interval(values: Sequence[float]) -> Tuple[Optional[float], Optional[float]]:
-    """The 95 % interval of the mean by the percentiles of the bootstrap (Efron and Tibshirani, "An
-    Introduction to the Bootstrap", 1993, chapter 13): the 250th and the 9750th of the ordered means
-    of 10 000 resamples, drawn with one seed. Fewer than two values have none. Of ten values it is
-    about a fifth too narrow (Hesterberg, The American Statistician 69, 2015)."""
-    if len(values) < 2:
-        return None, None
-    draw = random.Random(1)
-    means = sorted(mean(draw.choices(values, k=len(values))) for _ in range(RESAMPLES))
-    return means[TAIL - 1], means[RESAMPLES - TAIL - 1]
-
-
 def judged(group: Group, values: Dict[int, float], limits: Limits) -> Verdict:
     """The verdict on the values of a group, of one seed at least."""
-    numbers = list(values.values())
-    low, high = interval(numbers)
-    return Verdict(group, values, mean(numbers), low, high, limits.verdict(low, high))
+    mean, low, high = mean_of(list(values.values()))
+    return Verdict(group, values, mean, low, high, limits.verdict(low, high))

@@ -12,13 +12,13 @@ import re
 from typing import Any, Optional, Sequence
 
 from hapnet.results import write_whole
+from hapnet.student import mean_of
 from hapnet.study.answers import NAME, Answer, AnswersError, SCHEMA, folder_of, read_lines, replayed
 from hapnet.study.design import Design
 from hapnet.study.figure import svg
 from hapnet.study.interval import interval_of
 from hapnet.study.plan import Plan
 from hapnet.study.psychometric import TWO_INTERVALS, YES_NO, Count, Kind, fitted
-from hapnet.study.student import mean_of
 
 THRESHOLDS = ("participant", "threshold", "bound", "ci_low", "ci_high", "unit", "at", "trials",
               "catch_trials", "catch_noticed", "not_valid", "is_complete", "observer")

@@ -9,7 +9,7 @@ import sys
 import unittest
 
 from hapnet.study.psychometric import TWO_INTERVALS, Count, Curve, fitted
-from hapnet.study.student import mean_of, quantile_975
+from hapnet.student import mean_of, quantile_975
 
 REPOSITORY = os.environ["HAPNET_REPOSITORY"]
 sys.path.insert(0, os.path.join(REPOSITORY, "tests/soak"))

@@ -31,9 +31,10 @@ def quantile_975(degrees: int) -> float:
 
 
 def mean_of(values: Sequence[float]) -> tuple[float, Optional[float], Optional[float]]:
-    """Mean, and the ends of its 95 % interval; None for a single value."""
+    """The mean of at least one value, and the ends of its 95 % interval; None for a single value.
+    The mean of equal values is that value, whatever their sum is rounded to."""
     count = len(values)
-    mean = math.fsum(values) / count
+    mean = min(max(math.fsum(values) / count, min(values)), max(values))
     if count < 2:
         return mean, None, None
     spread = math.sqrt(math.fsum((one - mean) ** 2 for one in values) / (count - 1))
