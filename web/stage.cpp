@@ -210,7 +210,7 @@ void Stage::await_output(const std::shared_ptr<Running>& running)
 {
     running->output->async_read_some(boost::asio::buffer(running->buffer),
                                      [this, running](const error_code& error, std::size_t bytes) {
-                                         // What a process of the session before says is late.
+                                         // Output of an earlier session comes too late.
                                          if (error || !is_child(running)) return;
                                          if (running->said.size() < said_bytes_max) {
                                              running->said.append(running->buffer.data(), bytes);

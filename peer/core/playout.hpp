@@ -29,6 +29,7 @@ class PlayoutBuffer {
 public:
     /// The share of states that may come after their playout time.
     static constexpr double late_share = 0.01;
+    /// The transit follows from this many states at most, sent within `window_age`.
     static constexpr std::size_t window = 2000;
     static constexpr base::Duration window_age{std::chrono::seconds{10}};
     static constexpr base::Duration step{std::chrono::microseconds{100}}; // bin width of transits

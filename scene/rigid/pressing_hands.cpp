@@ -49,7 +49,7 @@ std::optional<TwoVectors> PressingHands::press(const WorldState& state, const Sw
     springs_.velocity = both(a.velocity.value, b.velocity.value);
     const TwoVectors here = both(velocity) + cross(both(now.spin), springs_.arm);
     const Two closing = dot(here - springs_.velocity, springs_.normal);
-    // The same computation as in force_at().
+    // force_at() computes the same force for one hand.
     const Two wanted = springs_.stiffness * depth + springs_.damping * closing;
     const Two force{std::clamp(wanted[0], 0.0, springs_.force_max[0]),
                     std::clamp(wanted[1], 0.0, springs_.force_max[1])};
