@@ -22,36 +22,52 @@ as() {
     [[ $1 != "$2" ]] || before=(strace -D -f -qq -o "$out/calls") # -D: the child is the program
     exec "${before[@]}" "$programs/$2" "${@:3}"
 }
+# wait_until WORD...: until the command says yes, 10 s at most.
+wait_until() {
+    for _ in {1..200}; do
+        ! "$@" || return 0
+        sleep 0.05
+    done
+    return 1
+}
+# end_of PID NAME: waits for a program, which must end with 0.
+end_of() {
+    local code=0
+    wait "$1" || code=$?
+    ((code == 0)) || fail "$2 ends with $code: $(cat "$out/$2")"
+}
+is_read() { ! pgrep -f "strace .*$out/calls" >/dev/null; }
+
 # session TRACED: two peers through an emulator, and the page.
 session() {
     local traced=$1 ready='' pids=()
-    rm -f "$out"/*.sock "$out/relay"
+    rm -f "$out"/*.sock "$out/relay" "$out/web" "$out/calls"
     as "$traced" hapnet-emulator --listen-a 127.0.0.1:0 --listen-b 127.0.0.1:0 --delay 2ms \
-        --control "$out/emulator.sock" >"$out/relay" 2>"$out/err" &
+        --control "$out/emulator.sock" >"$out/relay" 2>&1 &
     pids+=($!)
-    for _ in {1..200}; do
-        ready=$(grep -s '^ready' "$out/relay" || true)
-        [[ -z $ready ]] || break
-        sleep 0.05
-    done
-    [[ $ready =~ a=([^ ]+)\ b=([^ ]+) ]] || fail "the emulator does not start"
+    wait_until grep -qs '^ready' "$out/relay" ||
+        fail "the emulator does not start: $(cat "$out/relay")"
+    ready=$(grep '^ready' "$out/relay")
+    [[ $ready =~ a=([^ ]+)\ b=([^ ]+) ]] || fail "no addresses: $ready"
     as "$traced" hapnet-peer --id 1 --remote "${BASH_REMATCH[1]}" --duration 2s \
         --control "$out/peer.sock" >"$out/peer-1" 2>&1 &
     pids+=($!)
     "$programs/hapnet-peer" --id 2 --remote "${BASH_REMATCH[2]}" --duration 2s >"$out/peer-2" 2>&1 &
     pids+=($!)
-    for _ in {1..200}; do
-        [[ ! -S $out/peer.sock ]] || break
-        sleep 0.05
-    done
+    wait_until test -S "$out/peer.sock" || fail "peer 1 does not start: $(cat "$out/peer-1")"
     if [[ -x $programs/hapnet-web ]]; then
         as "$traced" hapnet-web --port 0 --emulator "$out/emulator.sock" --peer "$out/peer.sock" \
             >"$out/web" 2>&1 &
         pids+=($!)
+        wait_until grep -qs '^open' "$out/web" || fail "the page does not start: $(cat "$out/web")"
     fi
-    wait "${pids[1]}" "${pids[2]}" || fail "a peer fails: $(cat "$out"/peer-?)"
+    end_of "${pids[1]}" peer-1
+    end_of "${pids[2]}" peer-2
     kill "${pids[0]}" "${pids[@]:3}"
-    wait "${pids[0]}" "${pids[@]:3}" || fail "the emulator or the page fails"
+    end_of "${pids[0]}" relay
+    [[ ! -v pids[3] ]] || end_of "${pids[3]}" web
+    # The program can end before strace has written its last lines.
+    wait_until is_read || fail "strace does not end"
 }
 
 # expanded NAME...: the system calls of these sets.
