@@ -276,6 +276,8 @@ second_turn_max=10
 second_turn() {
     local run names count
     for run in "$@"; do
+        [[ -e $logs/$run.log ]] || continue # the build failed before
+        last_words "$run" >"$logs/$run.words"
         names=$(reasons "$run" | awk -F'\t' '$1 == "the machine was never quiet" { print $2 }')
         count=$(grep -c . <<<"$names" || true)
         ((count > 0 && count <= second_turn_max)) || continue
@@ -289,7 +291,24 @@ second_turn() {
             "$logs/$run-again.log" >>"$logs/$run.kept"
         mv "$logs/$run.kept" "$logs/$run.log"
         cat "$logs/$run-again.said" >>"$logs/$run.said"
+        last_words "$run-again" >>"$logs/$run.words"
     done
+}
+
+# last_words RUN: the last 20 lines of each test that failed, for the first five.
+last_words() {
+    awk 'function close_test(i) {
+            for (i = count > 20 ? count - 20 : 0; i < count; i++) print "    " said[i]
+            is_open = count = 0
+        }
+        /^ *([0-9]+\/[0-9]+ Test|Start) +#?[0-9]+:/ { close_test() }
+        /^[0-9]+% tests passed/ { close_test() }
+        is_open { said[count++] = $0 }
+        /^ *[0-9]+\/[0-9]+ Test .*\*\*\*/ && !/\*\*\*(Skipped|Not Run)/ && ++failed <= 5 {
+            print "  the end of what it said: " $4
+            is_open = 1
+        }
+        END { close_test() }' "$logs/$1.log"
 }
 
 # closing RUN...: how the tests of each ended, and which failed.
@@ -299,6 +318,7 @@ closing() {
         if grep -q '% tests passed' "$logs/$run.log" 2>/dev/null; then
             printf '%s: %s\n' "${run/-/ }" "$(tally "$run")"
             sed -n '/^The following tests FAILED:/,/^$/p' "$logs/$run.log"
+            [[ ! -s $logs/$run.words ]] || cat "$logs/$run.words"
         else
             printf '%s: not run to the end\n' "${run/-/ }"
         fi
