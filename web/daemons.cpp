@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "web/daemons.hpp"
 
+#include "web/core/condition_words.hpp"
 #include "web/core/members.hpp"
 #include "web/core/stage_plan.hpp"
 
@@ -155,14 +156,7 @@ void Daemons::on_emulator_frame(std::string_view line)
         emulator_state_.paths = feed_.paths();
         handlers_.on_news();
     }
-    if (generation == shown_generation_) return;
-    if (shown_generation_ > 0 && generation > own_generation_ && !is_showing_) {
-        Event event{.at = {}, .kind = "conditions", .text = {}};
-        event.text = fmt::format("the conditions have changed: generation {}", generation);
-        event.generation = static_cast<std::int64_t>(generation);
-        handlers_.on_event(std::move(event));
-    }
-    ask_emulator_to_show();
+    if (generation != shown_generation_) ask_emulator_to_show();
 }
 
 void Daemons::on_peer_frame(Peer& peer, std::string_view line)
@@ -183,6 +177,15 @@ void Daemons::ask_emulator_to_show()
     emulator_->ask(show_request, [this](const base::Result<Json>& reply) {
         is_showing_ = false;
         if (!reply || !reply->value("ok", false)) return;
+        const auto generation = generation_in(*reply);
+        if (shown_generation_ > 0 && generation > shown_generation_ &&
+            generation > own_generation_) {
+            Event event{.at = {}, .kind = "conditions", .text = {}};
+            event.text = fmt::format("{}: generation {}",
+                                     words_of_change(emulator_state_.shown, *reply), generation);
+            event.generation = static_cast<std::int64_t>(generation);
+            handlers_.on_event(std::move(event));
+        }
         emulator_state_.shown = *reply;
         const auto peers = reply->find("peers");
         if (finds_lab_peers_ && peers != reply->end() && peers->is_number_unsigned() &&
@@ -191,7 +194,7 @@ void Daemons::ask_emulator_to_show()
             const std::string socket = emulator_state_.socket;
             watch(socket, lab_peer_sockets(socket, peers->get<int>()));
         }
-        shown_generation_ = generation_in(*reply);
+        shown_generation_ = generation;
         handlers_.on_news();
     });
 }

@@ -6,6 +6,7 @@
 #include "proto/base/version.hpp"
 #include "proto/control/core/request.hpp"
 #include "proto/net/clock.hpp"
+#include "web/core/condition_words.hpp"
 #include "web/core/members.hpp"
 #include "web/presets.hpp"
 
@@ -240,8 +241,10 @@ void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
                 Event event{.at = {}, .kind = "conditions", .text = {}};
                 event.generation = static_cast<std::int64_t>(generation_in(*reply));
                 event.text = command;
-                if (command == "set" && request.contains("settings"))
+                if (command == "set" && request.contains("settings")) {
                     event.set = request["settings"];
+                    event.text += " " + words_of(event.set);
+                }
                 for (const char* key : {"preset", "netem"}) {
                     const auto named = text_member(request, key);
                     if (!named.empty()) event.text += " " + named;

@@ -126,6 +126,19 @@ test("a map of networks says which of them each algorithm bears", { skip }, asyn
   await looksWell(page, "map");
   const maps = (await figuresOf(page)).filter(({ kind }) => kind === "heat-map");
   assert.equal(maps.length, 4);
+  // A finger that taps a field is told its numbers, which stay when it has left.
+  const finger = await page.context().newCDPSession(page);
+  await finger.send("Emulation.setTouchEmulationEnabled", { enabled: true });
+  const figure = page.locator(`figure[data-figure="${maps[0].id}"]`);
+  const field = figure.locator(".part").first();
+  await field.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await field.boundingBox();
+  const at = { x: x + width / 2, y: y + height / 2 };
+  await finger.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [at] });
+  await finger.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  await page.waitForTimeout(300);
+  assert.equal(await figure.locator(".pointed").textContent(), await field.locator("title")
+    .textContent());
   await page.context().close();
 });
 

@@ -59,7 +59,10 @@ class Still extends Figure {
     new ResizeObserver(() => this.draw()).observe(this.area);
     this.area.addEventListener("pointerover", ({ target }) =>
       say(this.pointedAt, target.closest(".part")?.dataset.tip ?? ""));
-    this.area.addEventListener("pointerleave", () => say(this.pointedAt, ""));
+    // A finger leaves with every tap: what it tapped stays said until the next.
+    this.area.addEventListener("pointerleave", ({ pointerType }) => {
+      if (pointerType !== "touch") say(this.pointedAt, "");
+    });
   }
 
   draw() {
