@@ -71,7 +71,8 @@ estop, is an emergency stop: zero force until the program is started anew.)";
 constexpr const char* exit_codes = R"(  0  done
   1  the run failed
   2  bad usage
-  3  the system refused (port in use, no route, no such device), or the record is incomplete)";
+  3  the system refused (port in use, no route, no such device), or the record
+     or events are incomplete)";
 
 constexpr const char* list_devices_description =
     "Lists every haptic device that can be seen, without opening any; for one that cannot be used, "

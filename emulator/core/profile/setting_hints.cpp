@@ -78,7 +78,8 @@ struct PlaceOfKeys {
 /// The keys of a profile, by the tables that have them; those of laws are in their descriptions.
 std::vector<PlaceOfKeys> places_of_keys()
 {
-    return {{{setting_keys.begin(), setting_keys.end()}, "write it below [both], [up] or [down]"},
+    return {{{setting_keys.begin(), setting_keys.end()},
+             "write it below [both], [up] or [down]; below [[at]] it needs a direction: up.delay"},
             {{"name", "seed"}, "write it at the top, above the first [table]"},
             {{"both", "all", "up", "down"}, "write it as a table of its own: [both]"},
             {{"time", "ramp"}, "it belongs to a change: write it below [[at]]"},
