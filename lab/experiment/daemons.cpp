@@ -32,6 +32,8 @@ base::Result<void> check(const Experiment& experiment)
                  "kind = \"plane\""},
         Obstacle{experiment.tick != 1ms, "their tick is 1 ms; leave 'tick' out"},
         Obstacle{experiment.duration % 1s != 0s, "'duration' has to be whole seconds"},
+        Obstacle{experiment.send != peer::SendPolicy{}, "leave 'send' out: this sends every tick"},
+        Obstacle{experiment.playout != peer::Playout::none, "leave 'playout' out: this has none"},
         Obstacle{experiment.keyed, "leave 'keyed' out: this plays without keys"},
         Obstacle{experiment.task_options != device::TaskOptions{}, "leave 'task_options' out"},
         Obstacle{!experiment.replay.empty(), "leave 'replay' out: hands are simulated"},

@@ -177,6 +177,8 @@ void check_record(const Experiment& experiment, base::Place place, Reading& read
                          std::holds_alternative<Trajectories>(experiment.kind);
     if (!has_few) return reading.complain(place, "records are kept by table1 and trajectories");
     if (experiment.keyed) reading.complain(place, "a record holds messages without keys");
+    if (experiment.tick != std::chrono::milliseconds{1})
+        reading.complain(place, "a record has ticks of 1 ms: leave 'tick' out");
 }
 
 /// Complains of people whose sessions no result of the kind tells apart.

@@ -12,11 +12,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace hapnet::lab::records {
 
@@ -80,6 +83,18 @@ bool is_over(const VirtualWorld& world)
     return true;
 }
 
+/// Returns the smallest layout that has room for these rows.
+record::Layout layout_for(const std::vector<record::Row>& rows, bool has_bodies)
+{
+    std::size_t longest = 0;
+    for (const record::Row& row : rows) {
+        if (const auto* message = std::get_if<record::MessageRow>(&row))
+            longest = std::max(longest, message->bytes.size());
+    }
+    const auto layout = record::Layout::for_messages_of(longest);
+    return has_bodies ? layout.with_bodies() : layout;
+}
+
 } // namespace
 
 base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting& setting)
@@ -97,7 +112,6 @@ base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting&
         kept[side].config = kept_config(setting, side, player.rig.governor().limits());
         journals.emplace_back(
             player, [&record = kept[side]](const record::Row& row) { record.rows.push_back(row); });
-        if (journals.back().has_bodies()) kept[side].layout = kept[side].layout.with_bodies();
     }
     world.intercept([&](const VirtualWorld::Arrival& arrival) {
         journals[arrival.to].on_message(arrival.from, arrival);
@@ -112,6 +126,9 @@ base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting&
         }
     }
     if (!is_over(world)) return base::fail("a session to be recorded never began");
+    for (std::size_t side = 0; side < world.sides(); ++side) {
+        kept[side].layout = layout_for(kept[side].rows, journals[side].has_bodies());
+    }
     return kept;
 }
 

@@ -153,6 +153,9 @@ TEST_F(LabRun, KeepsRecordsThatAnalyseExportAndReplayTake)
     ASSERT_EQ(run_into("kept").exit, 0);
     const auto a = folder.file("kept") + "/records/base-T3/peer-1.rec";
     const auto b = folder.file("kept") + "/records/base-T3/peer-2.rec";
+    EXPECT_NE(result("kept", "records/base-T3/peer-1.rec").find(R"("message_row_bytes":157)"),
+              std::string::npos)
+        << "rows as long as those of a peer in this scene";
     const auto analysed = run("hapnet-lab", {"analyse", a, b, "--json"});
     ASSERT_EQ(analysed.exit, 0) << analysed.err;
     const auto analysis = nlohmann::json::parse(analysed.out);

@@ -16,7 +16,7 @@ from hapnet.study.plan import Plan, Trial
 
 START_S = 2.0  # of a session, until its common start, with the check of its records
 ANSWER_S = 3.0
-MEGABYTES_PER_S = 1.1  # the records of both peers
+MEGABYTES_PER_S = 0.8  # the records of both peers
 SIMULATED = 41  # observers, whose median is told
 
 

@@ -67,8 +67,8 @@ OPTIONS = (
            "sim). Words after -- are further options of that peer", ("run",)),
     Option("--partner", "NAME", "The device of the other side, B (default: sim)", ("run",)),
     Option("--keep-invalid", "", "Ask also after a trial in which the machine was too busy to keep "
-           "its timing, and mark the answer. Without it such a trial is played again, at most 3 "
-           "times", ("run",)),
+           "its timing, and mark the answer. Without it such a trial is played again, "
+           "at most twice", ("run",)),
     Option("--json", "", "Print one JSON object instead of text", ("analyse", "check")),
 )
 COMMON = (("-h", "--help", "", "Print help and exit"),

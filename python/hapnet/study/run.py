@@ -75,10 +75,10 @@ class Run:
             say("Noted.")
 
     def _played(self, trial: Trial) -> Played:
-        """The trial, played again while it is not valid, TRIES times at most."""
+        """The trial, played again while it is not valid: TRIES plays at most."""
         if self._stage is None:
             return Played()
-        for _ in range(TRIES):
+        for plays_left in reversed(range(TRIES)):
             try:
                 played = self._stage.play(trial, self._answers.folder, say, self._who.is_stopped)
             except EmergencyStop:
@@ -88,7 +88,8 @@ class Run:
             if not played.invalid_because or self._keeps_invalid:
                 return played
             self._answers.note_invalid(trial, played.invalid_because)
-            say(f"The trial was not valid ({'; '.join(played.invalid_because)}); once more.")
+            why = "; ".join(played.invalid_because)
+            say(f"The trial was not valid ({why})" + ("; once more." if plays_left else "."))
         raise NeverValid(f"trial {trial.number} was not valid {TRIES} times: close what else runs, "
                          "see docs/use/build.md on real-time priority, and start the same command "
                          "again")

@@ -39,6 +39,10 @@ TEST(DaemonSessions, RefuseWhatOnlyVirtualTimePlays)
               "the daemons cannot play this: 'duration' has to be whole seconds");
     EXPECT_EQ(refusal_of("keyed=true"),
               "the daemons cannot play this: leave 'keyed' out: this plays without keys");
+    EXPECT_EQ(refusal_of("send=\"every:10\""),
+              "the daemons cannot play this: leave 'send' out: this sends every tick");
+    EXPECT_EQ(refusal_of("playout=\"adaptive\""),
+              "the daemons cannot play this: leave 'playout' out: this has none");
     const auto limits = load_experiment("fig6a", {}, {}).value();
     EXPECT_NE(daemon_sessions(limits).error().message.find("kind = \"plane\""), std::string::npos);
 }

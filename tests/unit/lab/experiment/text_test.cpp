@@ -354,6 +354,8 @@ TEST(ExperimentText, RefusesACombinationThatCannotPlayBeforeTheFirstSession)
                     .starts_with("mine.toml:3:14: T4, 2 peers: "));
     EXPECT_TRUE(complaint("kind = \"claims\"\ntasks = \"T1\"\nalgorithms = \"sep\"\n")
                     .starts_with("mine.toml:3:14: T1, 3 peers: "));
+    EXPECT_EQ(complaint("kind = \"table1\"\ntasks = \"T1\"\ntick = \"2ms\"\nrecord = true\n"),
+              "mine.toml:4:10: a record has ticks of 1 ms: leave 'tick' out");
 }
 
 TEST(ExperimentText, NamesThePlaceOfAnAxisWhetherItStandsAloneOrAmongSeveral)
