@@ -92,13 +92,6 @@ constexpr const char* bridge_exit_codes = R"(  0  done
   2  bad usage or input
   3  the system refused (no CAP_NET_RAW, no such interface))";
 
-base::Result<WorldProgram> parse_world_program(const std::string& text)
-{
-    const auto program = cli::one_of({"pasta", "slirp4netns"})(text);
-    if (!program) return tl::unexpected{program.error()};
-    return *program == "pasta" ? WorldProgram::pasta : WorldProgram::slirp4netns;
-}
-
 base::Result<std::string> parse_interface(const std::string& text)
 {
     constexpr std::size_t length_max = 15; // limit of Linux for interface names
@@ -161,7 +154,7 @@ cli::Command& add_exec(cli::Command& program, std::optional<WorldProgram>& throu
     command.option("--through", "pasta|slirp4netns",
                    "The program that joins the command's network to this machine's (default: the "
                    "first of them that works)",
-                   cli::into(through, parse_world_program));
+                   cli::into(through, cli::named<WorldProgram>));
     return command;
 }
 
@@ -204,11 +197,6 @@ base::Result<void> require_one_command(const TypedCommands& commands)
     if (!commands.empty() && !commands.front().empty()) return {};
     return base::fail("a command is required: hapnet-emulator exec --delay 40ms -- curl "
                       "https://example.org");
-}
-
-std::string_view to_text(WorldProgram program)
-{
-    return program == WorldProgram::pasta ? "pasta" : "slirp4netns";
 }
 
 base::Result<void> require_two_interfaces(const std::string& a, const std::string& b)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/result.hpp"
 #include "proto/cli/command.hpp"
 
@@ -10,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace hapnet::emulator {
@@ -37,7 +37,10 @@ void add_frame_options(cli::Command& command, FrameOptions& options);
 
 /// The programs that join a namespace to the network that its user has, without root.
 enum class WorldProgram : std::uint8_t { pasta, slirp4netns };
-[[nodiscard]] std::string_view to_text(WorldProgram program);
+constexpr auto names_of(base::Tag<WorldProgram> /*enum*/)
+{
+    return base::names("pasta", "slirp4netns");
+}
 
 /// `between`; `exec` with the program that it goes through; `bridge` with its two interfaces.
 cli::Command& add_between(cli::Command& program);

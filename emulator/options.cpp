@@ -205,10 +205,7 @@ void add_conditions(cli::Command& command, ConditionOptions& into, const Conditi
 
 base::Result<Timing> parse_timing(const std::string& text)
 {
-    const auto meant =
-        cli::meant_value("--timing", text).and_then(cli::one_of({"eco", "precise", "spin"}));
-    if (!meant) return tl::unexpected{meant.error()};
-    return *meant == "eco" ? Timing::eco : *meant == "spin" ? Timing::spin : Timing::precise;
+    return cli::meant_value("--timing", text).and_then(cli::named<Timing>);
 }
 
 base::Result<std::size_t> parse_in_flight(const std::string& text)

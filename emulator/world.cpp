@@ -270,7 +270,7 @@ void World::open()
             return;
         }
         is_one_installed = is_one_installed || helper->is_installed();
-        troubles.push_back(fmt::format("{}: {}", to_text(helper->program()), *trouble));
+        troubles.push_back(fmt::format("{}: {}", base::name_of(helper->program()), *trouble));
     }
     if (!is_one_installed)
         throw std::system_error{ENOENT, not_installed(), troubles_text(troubles)};
@@ -278,7 +278,7 @@ void World::open()
     net::deny_network(error, fmt::format("{}; {}", troubles_text(troubles), cure));
 }
 
-std::string_view World::name() const { return to_text(used_->program()); }
+std::string_view World::name() const { return base::name_of(used_->program()); }
 
 net::ChildCommand& World::process() { return used_->process(); }
 

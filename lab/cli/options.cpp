@@ -98,14 +98,6 @@ void add_analyse(cli::Command& command, AnalyseCommand& analyse)
     command.flag("--json", "Print one JSON object instead of a table", analyse.json);
 }
 
-base::Result<ExportRows> parse_export_rows(const std::string& text)
-{
-    return cli::one_of({"ticks", "messages", "bodies"})(text).map([](const std::string& word) {
-        if (word == "messages") return ExportRows::messages;
-        return word == "bodies" ? ExportRows::bodies : ExportRows::ticks;
-    });
-}
-
 void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
 {
     command.describe(
@@ -128,7 +120,7 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
         "--rows", "ticks|messages|bodies",
         "Ticks of the haptic loop, messages received, or where each tick left the shared "
         "bodies (default ticks)",
-        cli::into(exported.rows, parse_export_rows));
+        cli::into(exported.rows, cli::named<ExportRows>));
 }
 
 /// Facts that a script knows and hapnet-lab does not.

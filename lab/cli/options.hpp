@@ -4,6 +4,7 @@
 
 #include "lab/experiment/shard.hpp"
 #include "lab/hands/import.hpp"
+#include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
 #include "proto/net/program.hpp"
 
@@ -46,6 +47,10 @@ struct PlayCommand {
 };
 
 enum class ExportRows : std::uint8_t { ticks, messages, bodies };
+constexpr auto names_of(base::Tag<ExportRows> /*enum*/)
+{
+    return base::names("ticks", "messages", "bodies");
+}
 
 /// `hapnet-lab export RECORD [OTHER] --csv [--rows ticks|messages|bodies] | --mcap`
 struct ExportCommand {

@@ -84,13 +84,6 @@ base::Result<Algorithm> parse_algorithm_name(const std::string& name_or_file)
     });
 }
 
-base::Result<Playout> parse_playout(const std::string& name)
-{
-    constexpr auto& all = base::names_of_enum<Playout>;
-    return cli::one_of({all.begin(), all.end()})(name).map(
-        [](const std::string& known) { return *base::named<Playout>(known); });
-}
-
 base::Result<device::Task> parse_task(std::string name)
 {
     for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -348,7 +341,7 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
         "--playout", "none|adaptive",
         "When a message that has arrived counts: at once (none, the default), or evenly, "
         "as they were sent, after a delay that follows the path's jitter (adaptive)",
-        cli::into(options.playout, parse_playout));
+        cli::into(options.playout, cli::named<Playout>));
     program.option("--seed", "NUMBER",
                    "Seed for every random draw of the hands; the lower id's counts (default 1)",
                    cli::into(options.seed, cli::seed));

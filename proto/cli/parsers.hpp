@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "proto/base/names.hpp"
 #include "proto/base/random.hpp"
 #include "proto/base/result.hpp"
 
@@ -22,5 +23,14 @@ using Parser = std::function<base::Result<T>(const std::string& text)>;
 
 /// Parses one of some words, in small or capital letters.
 [[nodiscard]] Parser<std::string> one_of(std::vector<std::string> words);
+
+/// Parses the name of one of the values of an enum, in small or capital letters.
+template <base::Named Enum>
+[[nodiscard]] base::Result<Enum> named(const std::string& text)
+{
+    constexpr auto& all = base::names_of_enum<Enum>;
+    return one_of({all.begin(), all.end()})(text).map(
+        [](const std::string& name) { return *base::named<Enum>(name); });
+}
 
 } // namespace hapnet::cli
