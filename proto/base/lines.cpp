@@ -108,12 +108,14 @@ LineReader::LineReader(std::string_view text) : rest_{text}
 /// Goes to the next line that says something: the rest begins with it.
 bool LineReader::find_next()
 {
+    skipped_empty_ = 0;
     while (!rest_.empty()) {
         const auto end = std::min(rest_.find('\n'), rest_.size());
         const auto first = std::min(rest_.find_first_not_of(blanks), end);
         ++number_;
         begun_ = number_;
         if (first < end && rest_[first] != '#') return true;
+        if (first == end) ++skipped_empty_;
         rest_.remove_prefix(std::min(end + 1, rest_.size()));
     }
     return false;

@@ -37,6 +37,9 @@ public:
     /// The number of the line that was given last, from 1.
     [[nodiscard]] std::size_t number() const;
 
+    /// The number of empty lines that were skipped before the line that was given last.
+    [[nodiscard]] std::size_t skipped_empty() const { return skipped_empty_; }
+
     /// An error at the line that was given last, or at the last one of the text.
     [[nodiscard]] tl::unexpected<Error> fail(std::string_view why) const;
 
@@ -46,6 +49,7 @@ private:
     std::string_view rest_;
     std::size_t number_ = 0; // last line of the result that was given last
     std::size_t begun_ = 0;  // first line of that result: cells may hold ends of lines
+    std::size_t skipped_empty_ = 0;
 };
 
 /// The text without the blanks around it.

@@ -43,6 +43,16 @@ public:
                                     : base::Result<void>{};
     }
 
+    /// As many lost datagrams behind the first value. False: there is no room for them.
+    [[nodiscard]] bool add_lost(std::size_t count)
+    {
+        if (rows_.values.empty()) return true;
+        if (count > trace_rows_max - rows_.values.size()) return false;
+        rows_.values.insert(rows_.values.end(), count, last_);
+        rows_.lost.insert(rows_.lost.end(), count, true);
+        return true;
+    }
+
     /// A delay with its unit.
     [[nodiscard]] base::Result<void> add_delay(std::string_view line)
     {
@@ -182,12 +192,15 @@ base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,
     base::Cells cells{{layout->separator, true}};
     if (layout->has_header) std::ignore = lines.next_cells(cells);
     Rows rows{measure, *layout};
+    const bool has_empty_rows = measure == Measure::delay && layout->cells == 1;
     for (;;) {
         base::Result<void> added;
         if (value_of(*layout)) {
             const auto line = lines.next_cells(cells);
             if (!line) return tl::unexpected{line.error()};
             if (!*line) break;
+            if (has_empty_rows && !rows.add_lost(lines.skipped_empty()))
+                return lines.fail(too_many_values);
             if (rows.is_full()) return lines.fail(too_many_values);
             added = rows.add(**line);
         } else {

@@ -48,7 +48,8 @@ struct TableFormat {
 /// commas do not separate; all of them the same. The columns of the format may name others, those
 /// of a table without a header by their numbers. Other columns are passed over.
 /// A delay that is empty, "nan", "-", "*", "lost" or "timeout" is that of a lost datagram: it has
-/// the delay of the one before; at the beginning, of the one after. Without a header, one delay
+/// the delay of the one before; at the beginning, of the one after. In a table of one column an
+/// empty line between two others is such a delay. Without a header, one delay
 /// with its unit per line; with a slot, a number there is milliseconds. Memory: at most 17 B a row.
 /// Errors name the line.
 [[nodiscard]] base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,

@@ -52,6 +52,22 @@ TEST(TraceRows, MarksWhatWasLost)
     EXPECT_EQ(rows->values, (std::vector{5e3, 5e3, 5e3, 6e3}));
 }
 
+TEST(TraceRows, TakeAnEmptyLineOfASingleColumnForALostDatagram)
+{
+    constexpr std::string_view text = "# walk\ndelay_ms\n\n5\n\n\r\n# b\n6\n\n";
+    const auto rows = read_trace_rows(text, Measure::delay);
+    ASSERT_TRUE(rows);
+    EXPECT_EQ(rows->lost, (std::vector{false, true, true, false}));
+    EXPECT_EQ(rows->values, (std::vector{5e6, 5e6, 5e6, 6e6}));
+    const auto slots = read_trace_rows("5\n\n6\n", Measure::delay, {{}, 10ms});
+    ASSERT_TRUE(slots);
+    EXPECT_EQ(slots->lost, (std::vector{false, true, false}));
+    EXPECT_EQ(slots->times, (std::vector<base::Duration>{0s, 10ms, 20ms}));
+    const auto pairs = read_trace_rows("t_s,delay_ms\n0,5\n\n1,6\n", Measure::delay);
+    ASSERT_TRUE(pairs);
+    EXPECT_EQ(pairs->lost, (std::vector{false, false}));
+}
+
 TEST(TraceRows, SayWhatIsWrongWithColumns)
 {
     constexpr std::string_view text = "stamp,rtt\n1,2\n";
