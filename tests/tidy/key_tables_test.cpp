@@ -152,6 +152,7 @@ std::vector<KeyTable> tables_of_outputs()
         {"predict-direction", output::key_table<emulator::tools::DirectionForecast>()},
         {"learn", output::key_table<emulator::tools::LearnReport>()},
         {"learn-way", output::key_table<emulator::tools::WayLesson>()},
+        {"learn-regime", output::key_table<emulator::tools::LearnedRegime>()},
         {"learn-likeness", output::key_table<emulator::tools::Likeness>()},
         {"verify", output::key_table<emulator::tools::Verification>()},
         {"verify-test", output::key_table<emulator::tools::TestResult>()},
@@ -231,8 +232,8 @@ const std::set<std::string>& without_table()
         "RangeOf<what", "SearchRanges", "Sensitivity", "LatinHypercube", "Match",
         // parts of the outputs above
         "Counters", "ProgramReport", "EndsReport", "FilesReport", "StreamReport", "TimesReport",
-        "DelayReport", "CorrelationAt", "LossWhenSlow", "ReorderReport", "Configuration",
-        "FirstDatagrams", "CourseReport", "RegimeReport", "LinkEnds", "FlowReport",
+        "DelayReport", "Estimate", "CorrelationAt", "LossWhenSlow", "ReorderReport",
+        "Configuration", "FirstDatagrams", "CourseReport", "RegimeReport", "LinkEnds", "FlowReport",
         "RealTimeReport", "DelaySpread", "LateSpread", "PathFrame", "Precision", "LossReport",
         "ProbeDelays", "ProbeWay", "ProbeSummary",
         // JSON, CSV and the settings in a record's header
@@ -267,8 +268,9 @@ const std::set<std::string>& with_table()
         // that programs print
         "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "StretchReport",
         "ClientReport", "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport",
-        "DirectionForecast", "LearnReport", "WayLesson", "Likeness", "Verification", "TestResult",
-        "ProbeReport", "EmulatorFrame", "WayFrame", "Requirement", "NetworkClass"};
+        "DirectionForecast", "LearnReport", "WayLesson", "LearnedRegime", "Likeness",
+        "Verification", "TestResult", "ProbeReport", "EmulatorFrame", "WayFrame", "Requirement",
+        "NetworkClass"};
     return names;
 }
 

@@ -85,10 +85,10 @@ public:
         }
     }
 
-    /// Learns delays and losses in `count` regimes. The error: the regimes are too short, too few
-    /// stays were measured, or the regimes are not valid.
-    base::Result<void> learn_regimes(const MeasuredWay& measured, std::size_t count,
-                                     bool with_losses)
+    /// Learns delays and losses in `count` regimes, and returns their figures. The error: the
+    /// regimes are too short, too few stays were measured, or the regimes are not valid.
+    base::Result<std::vector<LearnedRegime>> learn_regimes(const MeasuredWay& measured,
+                                                           std::size_t count, bool with_losses)
     {
         const auto fit = fit_regimes(measured, count);
         if (!fit) return base::fail("the regimes are too short, or too few stays were measured");
@@ -106,14 +106,17 @@ public:
             }
         }
         Regimes regimes{std::move(all)};
-        if (auto valid = validate(regimes); !valid) return valid;
+        if (auto valid = validate(regimes); !valid) return tl::unexpected{valid.error()};
         say(fmt::format("regimes: {}, by the least BIC", count));
+        std::vector<LearnedRegime> found;
         for (std::size_t i = 0; i < count; ++i) {
-            say(in_words(regimes.all[i], fit->regimes[i], own_rows(measured, fit->regimes[i]),
-                         with_losses));
+            const RegimeFit& one = fit->regimes[i];
+            found.push_back(
+                learned_regime(regimes.all[i], one, own_rows(measured, one), with_losses));
+            say(tools::in_words(found.back()));
         }
         way_.regimes = std::move(regimes);
-        return {};
+        return found;
     }
 
     void learn_losses(const MeasuredWay& measured)
@@ -203,68 +206,6 @@ private:
         return std::chrono::microseconds{std::llround(nanoseconds / 1e3)};
     }
 
-    /// The intervals are those of independent stays, datagrams and losses.
-    [[nodiscard]] static std::string in_words(const Regime& regime, const RegimeFit& fit,
-                                              const MeasuredWay& own, bool with_losses)
-    {
-        constexpr double z = 1.959964;
-        const double stay = base::to_seconds(regime.stay);
-        const double factor = std::exp(z / std::sqrt(fit.exits));
-        auto text = fmt::format("regime {}: {:.0f} stays of {:.4g} s (95 %: {:.4g} to {:.4g} s)",
-                                regime.name, fit.exits, stay, stay / factor, stay * factor);
-        if (with_losses) {
-            const auto [low, high] = wilson_interval(fit.lost / fit.rows, fit.rows);
-            text += fmt::format(", loss {:.4g} % (95 %: {:.4g} to {:.4g} %)",
-                                100.0 * fit.lost / fit.rows, 100.0 * low, 100.0 * high);
-        }
-        const DelayInterval delay = delay_interval(own, regime);
-        text += fmt::format(
-            ", delay {:.6g} ms (95 %: {:.6g} to {:.6g} ms), sd {:.4g} ms (95 %: "
-            "{:.4g} to {:.4g} ms)",
-            delay.mean, delay.mean - z * delay.mean_error, delay.mean + z * delay.mean_error,
-            delay.sd, std::max(delay.sd - z * delay.sd_error, 0.0), delay.sd + z * delay.sd_error);
-        return text;
-    }
-
-    /// Mean and deviation of delays in ms, with their standard errors.
-    struct DelayInterval {
-        double mean = 0.0;
-        double mean_error = 0.0;
-        double sd = 0.0;
-        double sd_error = 0.0;
-    };
-    [[nodiscard]] static DelayInterval delay_interval(const MeasuredWay& own, const Regime& regime)
-    {
-        std::vector<double> values;
-        for (const auto& delay : own.delays) {
-            if (delay) values.push_back(milliseconds_of(*delay));
-        }
-        DelayInterval found;
-        auto n = static_cast<double>(values.size());
-        for (const double value : values) found.mean += value / n;
-        double fourth = 0.0;
-        double variance = 0.0;
-        for (const double value : values) {
-            const double squared = (value - found.mean) * (value - found.mean);
-            variance += squared / n;
-            fourth += squared * squared / n;
-        }
-        found.sd = std::sqrt(variance);
-        const auto time =
-            regime.own.jitter ? regime.own.jitter->correlation_time : base::Duration{};
-        if (time > base::Duration{0}) {
-            const double rho = std::exp(-base::to_seconds(*own.spacing) / base::to_seconds(time));
-            n *= (1.0 - rho) / (1.0 + rho);
-        }
-        n = std::max(n, 1.0);
-        found.mean_error = found.sd / std::sqrt(n);
-        if (variance > 0.0) {
-            const double excess = std::max(fourth / (variance * variance) - 1.0, 0.0);
-            found.sd_error = 0.5 * found.sd * std::sqrt(excess / n);
-        }
-        return found;
-    }
-
     [[nodiscard]] static std::string in_words(const LossModel& model, const LossModel& best)
     {
         auto text = fmt::format("loss {}: BIC {:+.1f}, parameters: {}", model.name,
@@ -323,6 +264,12 @@ bool has_no_delay(const std::optional<MeasuredWay>& way)
            std::ranges::none_of(way->delays, [](const auto& one) { return one.has_value(); });
 }
 
+/// The conditions of a way, and the figures of their regimes.
+struct LearnedWay {
+    Conditions conditions;
+    std::vector<LearnedRegime> regimes{};
+};
+
 struct Choice {
     LearnedForm form = LearnedForm::laws;
     std::size_t regimes = 1; // number of regimes in the form LearnedForm::regimes
@@ -343,7 +290,7 @@ public:
 
     [[nodiscard]] base::Result<Conditions> learn(Lesson& lesson) const
     {
-        WayLesson way{.way = name_, .form = LearnedForm::laws, .likeness = {}};
+        WayLesson way{.way = name_};
         Lesson unsaid;
         const auto [first, second] = halves_of(measured_);
         const bool can_judge =
@@ -363,16 +310,17 @@ public:
             is_fine = false;
             all = in_form(choice, measured_, table_, lesson);
         }
-        if (!all) return all;
+        if (!all) return tl::unexpected{all.error()};
         way.form = choice.form;
+        way.regimes = std::move(all->regimes);
         if (can_judge) {
             auto half = in_form(choice, first, named_table(first_half, first), unsaid);
-            if (!half) return half;
-            way.likeness = likeness_of(*half, first, second);
+            if (!half) return tl::unexpected{half.error()};
+            way.likeness = likeness_of(half->conditions, first, second);
             say(lesson, way, is_fine);
         }
         lesson.ways.push_back(std::move(way));
-        return all;
+        return std::move(all->conditions);
     }
 
 private:
@@ -396,8 +344,8 @@ private:
                 choice.regimes = count_regimes(half);
                 if (choice.regimes < 2) continue;
             }
-            const auto conditions = in_form(choice, half, named_table(first_half, half), unsaid);
-            if (conditions && is_near(*conditions, half)) {
+            const auto learned = in_form(choice, half, named_table(first_half, half), unsaid);
+            if (learned && is_near(learned->conditions, half)) {
                 const bool can_be_named = form != LearnedForm::table || table_;
                 return can_be_named ? std::optional{choice} : std::nullopt;
             }
@@ -405,7 +353,7 @@ private:
         return table_ ? std::optional{Choice{LearnedForm::trace}} : std::nullopt;
     }
 
-    [[nodiscard]] base::Result<Conditions> in_form(const Choice& choice,
+    [[nodiscard]] base::Result<LearnedWay> in_form(const Choice& choice,
                                                    const MeasuredWay& measured,
                                                    const std::optional<MeasuredTable>& table,
                                                    Lesson& lesson) const
@@ -417,20 +365,20 @@ private:
             auto learned = learner.learn_regimes(measured, choice.regimes, with_losses_);
             if (!learned) return tl::unexpected{learned.error()};
             learner.learn_order(measured);
-            return way;
+            return LearnedWay{std::move(way), *std::move(learned)};
         }
         learner.learn_delays(measured);
         if (with_losses_) learner.learn_losses(measured);
         learner.learn_order(measured);
-        if (form == LearnedForm::laws) return way;
+        if (form == LearnedForm::laws) return LearnedWay{std::move(way)};
         const auto least = std::get<ConstantLaw>(way.delay.law).value;
         auto read = form == LearnedForm::trace
                         ? replayed(*table)
                         : drawn_from(*table, std::max(least, base::Duration{0}),
                                      way.jitter.correlation_time);
-        if (!read) return read;
+        if (!read) return tl::unexpected{read.error()};
         learner.take(*read, table->file, form);
-        return way;
+        return LearnedWay{std::move(way)};
     }
 
     void say(Lesson& lesson, const WayLesson& way, bool is_fine) const

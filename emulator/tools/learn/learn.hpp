@@ -3,6 +3,7 @@
 #pragma once
 
 #include "emulator/core/profile/profile.hpp"
+#include "emulator/tools/learn/learned_regime.hpp"
 #include "emulator/tools/learn/likeness.hpp"
 #include "emulator/tools/learn/measured_table.hpp"
 #include "emulator/tools/learn/measurement.hpp"
@@ -31,9 +32,10 @@ constexpr auto names_of(base::Tag<LearnedForm>)
 
 /// The lesson about one direction, or about a round trip.
 struct WayLesson {
-    std::string way;
+    std::string way{};
     LearnedForm form = LearnedForm::laws;
-    std::optional<Likeness> likeness;
+    std::vector<LearnedRegime> regimes{}; // in the form LearnedForm::regimes
+    std::optional<Likeness> likeness{};
 };
 constexpr auto fields_of(base::Tag<WayLesson>)
 {
@@ -44,6 +46,9 @@ constexpr auto fields_of(base::Tag<WayLesson>)
                      "`laws`: drawn by a law. `regimes`: by the laws of several regimes. `table`: "
                      "drawn from the values that were measured. "
                      "`trace`: replayed."),
+        base::member("regimes", &W::regimes,
+                     "Its regimes, as a list of [these](#a-regime-that-was-learned); empty in "
+                     "another form."),
         base::member("likeness", &W::likeness,
                      "How like the second half is what was learned from the first half alone, in "
                      "this form. null: fewer than 400 datagrams."));
