@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 namespace hapnet::emulator::tools {
 
@@ -216,20 +217,27 @@ Likeness likeness_of(const Conditions& conditions, const MeasuredWay& first,
 
 namespace {
 
-bool is_like(const MeasuredWay& model, const MeasuredWay& learned)
+/// Where a play is near the series that was learned: in the distribution, in the losses after slow
+/// datagrams, and in the correlation at each lag.
+using Nearness = std::array<bool, 2 + lags.size()>;
+
+Nearness nearness_of(const MeasuredWay& model, const MeasuredWay& learned)
 {
-    if (distance_between(model, learned) > distance_most) return false;
+    Nearness near;
+    near.fill(true);
+    near[0] = distance_between(model, learned) <= distance_most;
     if (const auto slow = losses_when_slow(learned)) {
         const auto [low, high] = interval_of(*slow);
         const auto of_model = losses_when_slow(model);
         const double share = of_model ? of_model->share : 0.0;
-        if (share < low || share > high) return false;
+        near[1] = share >= low && share <= high;
     }
-    return std::ranges::all_of(lags, [&](base::Duration lag) {
-        const auto own = autocorrelation(learned, lag);
-        const auto of_model = autocorrelation(model, lag);
-        return !own || !of_model || std::abs(*own - *of_model) <= correlation_most;
-    });
+    for (std::size_t i = 0; i < lags.size(); ++i) {
+        const auto own = autocorrelation(learned, lags[i]);
+        const auto of_model = autocorrelation(model, lags[i]);
+        near[2 + i] = !own || !of_model || std::abs(*own - *of_model) <= correlation_most;
+    }
+    return near;
 }
 
 } // namespace
@@ -242,9 +250,12 @@ bool is_near(const Conditions& conditions, const MeasuredWay& learned)
         conditions.regimes.empty()
             ? 1
             : std::clamp<std::uint64_t>(affordable, plays_min, plays_of_regimes);
-    for (std::uint64_t play = 1; play <= plays; ++play)
-        if (is_like(played_like(conditions, learned, base::Seed{play}), learned)) return true;
-    return false;
+    std::array<std::uint64_t, std::tuple_size_v<Nearness>> near{};
+    for (std::uint64_t play = 1; play <= plays; ++play) {
+        const auto one = nearness_of(played_like(conditions, learned, base::Seed{play}), learned);
+        for (std::size_t i = 0; i < near.size(); ++i) near[i] += one[i] ? 1U : 0U;
+    }
+    return std::ranges::all_of(near, [&](std::uint64_t count) { return 20 * count >= plays; });
 }
 
 } // namespace hapnet::emulator::tools

@@ -119,10 +119,11 @@ constexpr auto fields_of(base::Tag<Likeness>)
                                    const MeasuredWay& second);
 
 /// True if conditions give the delays of the series that they were learned from, well enough for
-/// another half of it: distributions at most 0.03 apart, correlations at most 0.1, and losses right
-/// after slow datagrams within their 95 % interval. Regimes last at random, so two series of the
-/// same regimes differ by more: one of several plays has to be as near. There are 40 plays of up to
-/// 100 000 rows, fewer of longer series, and at least 8.
+/// another half of it: distributions at most 0.03 apart, losses right after slow datagrams within
+/// their 95 % interval, and each correlation at most 0.1 apart. Regimes last at random, so two
+/// series of the same regimes differ by more: each of these has to hold in one of twenty plays, not
+/// all in the same one. There are 40 plays of up to 100 000 rows, fewer of longer series, and at
+/// least 8.
 [[nodiscard]] bool is_near(const Conditions& conditions, const MeasuredWay& learned);
 
 } // namespace hapnet::emulator::tools
