@@ -29,8 +29,8 @@ until the timeline of the profile changes the same key. With --for it ends by it
 hapnet-ctl is gone by then. Files that a setting or a profile names are sent along, from here or
 from beside the profile.
 
-A peer answers show, stats, watch, wait, keep, stop and estop. Its settings cannot be changed while
-it runs.
+A peer answers show, stats, metrics, watch, wait, keep, stop and estop. Its settings cannot be
+changed while it runs.
 
 Examples:
   hapnet-ctl /tmp/emulator.sock show

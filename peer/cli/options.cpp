@@ -239,16 +239,16 @@ void add_results(cli::Command& program, Options& options)
                    cli::into(options.stats, parse_result_file));
     program.option(
         "--events", "FILE",
-        "Write a line of JSON to FILE for whatever happens (docs/use/peer.md); - is stdout",
+        "Write a line of JSON to FILE for whatever happens (docs/formats/events.md); - is stdout",
         cli::into(options.events, parse_result_file));
     program.option("--control", "SOCKET",
                    "Listen on this Unix socket for hapnet-ctl, which may show the session and "
                    "stop it, and change nothing: hapnet-ctl SOCKET "
-                   "show|stats|watch|wait|keep|stop|estop",
+                   "show|stats|metrics|watch|wait|keep|stop|estop",
                    cli::into(options.control));
     program.option("--plotjuggler", "HOST:PORT",
                    "Send 50 frames a second as JSON over UDP, as PlotJuggler's UDP server takes "
-                   "them (docs/use/peer.md); not sealed, also with --key",
+                   "them (docs/formats/live.md); not sealed, also with --key",
                    cli::into(options.plot, parse_remote));
     cli::add_keep(program, options.keep, "what --record would write");
 }

@@ -15,7 +15,7 @@ namespace hapnet::peer::monitor {
 /// Something that happened, for programs and, with words, for a person.
 struct LoggedEvent {
     base::TimePoint at;
-    std::string_view name;            // docs/use/peer.md lists all names
+    std::string_view name;            // docs/formats/events.md lists all names
     std::uint16_t about = 0;          // id of the peer that it is about; 0: all, or not known
     std::string words{};              // text for a person; "": no text is shown
     nlohmann::ordered_json details{}; // further keys; null: none

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-"""The deadband of --send once more, after docs/use/peer.md#sending-less.
+"""The deadband of --send once more, after docs/formats/wire.md#fewer-messages.
 
     tests/reference/deadband.py --lab build/release/bin/hapnet-lab
 
