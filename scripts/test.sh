@@ -8,7 +8,7 @@ set -euo pipefail
 usage="usage: scripts/test.sh [--all | KIND]
 Installs what is missing, builds what the tests need with GCC (preset release) and runs them: unit,
 property, simulation, conformance, bits, the rules of the house, programs end to end; and checks the
-format of the sources and the scripts. About 12 minutes on two cores.
+format of the sources and the scripts. About 11 minutes on two cores.
 --all also runs the kinds long and sanitizers.
 KIND runs one kind instead:
   long        the release tests that take longer (whole matrices, costs, benches, Python, libraries,
