@@ -17,7 +17,8 @@ emulator:
      its memory stays flat, nothing is lost that is not counted,
   3. floods of three times what the emulator can take beside a stream of 1 kHz,
      and of frames between two commands, both ways at once: each packet is in one counter,
-  4. each row of the table of jitter and order at 1 kHz for 20 s, against 'predict',
+  4. each row of the table of jitter and order at 1 kHz for 20 s, against 'predict', and two
+     regimes for 60 s against virtual time,
   5. 28 links and then 64 clients on two threads, for N minutes each: nothing is allocated after
      the start, nothing is lost that is not counted;
 control:
@@ -308,6 +309,7 @@ if [[ $subject == all || $subject == emulator ]]; then
     run floods soak_emulator '--gtest_filter=Flood.*'
     run frames soak_emulator '--gtest_filter=FrameFlood.*'
     run jitter-and-order soak_emulator '--gtest_filter=JitterAndOrder.*'
+    run regimes soak_emulator '--gtest_filter=Regimes.*'
     run many-paths soak_emulator '--gtest_filter=ManyPaths.*'
 fi
 if [[ $subject == all || $subject == control ]]; then
