@@ -42,9 +42,9 @@ public:
     /// Goes on with the calibration, opens the frame, and reads. The motors are off in the first
     /// frame after a start.
     const Report& begin();
-    /// Sets the force and closes the frame. No force while the library says that the device is not
-    /// calibrated, nor by a command that is `is_new` no more for 20 cycles: who gave it has
-    /// stopped.
+    /// Sets the force and closes the frame. The force is zero while the library says that the
+    /// device is not calibrated. It is also zero once no command was `is_new` for 20 cycles: the
+    /// thread that gives commands has stopped.
     void end(const Command& command, bool is_new);
     /// Notes an error of this device, after end(). The last call of a cycle counts.
     void note(unsigned int code) { happened_ = code; }

@@ -123,7 +123,7 @@ glm::dvec3 SimulatedOmni::position() const
 glm::dvec3 SimulatedOmni::quantised(const glm::dvec3& position) const
 {
     const auto count = [this](double x) {
-        // The nearest whole number, by the rounding of an addition: std::nearbyint is a call.
+        // The addition rounds to the nearest whole number. std::nearbyint would be a function call.
         constexpr double shift = 6755399441055744.0; // 1.5 * 2^52
         return ((x / performer_.plant.resolution_m + shift) - shift) *
                performer_.plant.resolution_m;
