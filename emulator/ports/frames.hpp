@@ -44,8 +44,8 @@ public:
         /// puts segments together.
         std::string cure_of_oversized{};
 
-        /// The names of the paths between each two ends: "a-b", "a-c", "b-c"; of two ends the only
-        /// one has none. `up` is from the first to the second.
+        /// The names of the paths between each two ends: "a-b", "a-c", "b-c". The only path between
+        /// two ends has no name. `up` is from the first to the second.
         [[nodiscard]] std::vector<std::string> path_names() const;
     };
 
@@ -59,7 +59,7 @@ public:
         net::PacketSocket socket;
         FrameBatch leaving;
         std::size_t frame_bytes_max;   // longest frame that its MTU allows, without VLAN tags
-        std::uint64_t undisturbed = 0; // frames that the conditions do not hold for
+        std::uint64_t undisturbed = 0; // frames to which no conditions apply
         std::uint64_t not_ip = 0;
         std::uint64_t oversized = 0;        // longer than the MTU: merged by an interface
         std::uint64_t lost_undisturbed = 0; // frames among `undisturbed` that were not sent
