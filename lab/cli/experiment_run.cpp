@@ -104,7 +104,7 @@ void write_records(const fs::path& out, const LoadedExperiment::Part& part)
     }
 }
 
-/// The jobs of a part that a shard has.
+/// Returns the jobs of a part that the shard takes.
 std::vector<experiment::Job> jobs_of(const LoadedExperiment::Part& part,
                                      experiment::ShardDeal& deal)
 {
