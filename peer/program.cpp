@@ -343,7 +343,7 @@ int write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& f
     return code;
 }
 
-/// Tells how the run went; its exit code.
+/// Prints how the run went, and returns its exit code.
 int conclude(const monitor::Run& run, const device::Governor& governor, Screen& screen)
 {
     screen.err.put(base::visible_lines(summary(run)));

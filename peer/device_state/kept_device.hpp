@@ -21,7 +21,8 @@ public:
     [[nodiscard]] std::string_view why_untested() const;
     [[nodiscard]] double heat_at_start(base::Duration heat_time) const;
 
-    /// Motors are about to be used: until on_rest() their heat is not known, however this ends.
+    /// Call it before motors are used. Their heat is then unknown until on_rest(), also if the
+    /// program dies.
     void on_use();
     void on_rest(double heat);
     /// The device has passed a self-test, now.
