@@ -50,7 +50,7 @@ public:
     void note(unsigned int code) { happened_ = code; }
 
     [[nodiscard]] Handle handle() const { return handle_; }
-    /// Frames in a row that told the device zero force with its motors off.
+    /// Frames in a row that sent the device zero force with its motors off.
     [[nodiscard]] std::uint64_t silent_frames() const { return silent_frames_; }
 
     static constexpr std::uint64_t stale_after_cycles = 20; // 20 ms at 1 kHz

@@ -85,7 +85,8 @@ void SimulatedOmni::advance(const Person::Aim& aim, base::TimePoint now)
 void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,
                           base::Duration elapsed)
 {
-    // The intention moves evenly from what it was. Late reads are lived through in short steps.
+    // The intention moves evenly from what it was. The time before a late read is simulated in
+    // short steps.
     const auto steps = (elapsed + step_max - base::Duration{1}) / step_max;
     const double share = 1.0 / static_cast<double>(steps);
     const double seconds = share * base::to_seconds(elapsed);

@@ -123,7 +123,7 @@ void UsbLink::handle_events(int milliseconds_max) noexcept
     libusb_handle_events_timeout_completed(usb_.context.get(), &most, nullptr);
 }
 
-/// Takes what has been heard, and goes on listening.
+/// Takes the bytes that have arrived, and starts the next transfer.
 void UsbLink::collect() noexcept
 {
     if (listening_ == Listening::completed) {
