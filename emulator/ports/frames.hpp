@@ -88,13 +88,13 @@ public:
     /// Sends what is due at `now`; what is left is still due.
     void release(base::TimePoint now);
 
-    /// Something that a person should be told of, once.
+    /// Returns the next message for a person, each only once.
     [[nodiscard]] std::optional<std::string> next_notice();
 
-    /// Why it must not go on; nullopt: it may.
+    /// The reason why the run must end; nullopt: it may go on.
     [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
 
-    /// Makes the loss of an interface no failure from now on: the program behind it ends.
+    /// From now on the loss of an interface is no failure, because the program behind it ends.
     void expect_end() { is_end_expected_ = true; }
 
     [[nodiscard]] const std::deque<End>& ends() const { return ends_; }
