@@ -52,7 +52,7 @@ public:
     /// Plays all that happens within `duration` from now, its end included.
     void run_for(base::Duration duration);
 
-    /// Kills a side on the spot; nothing is said.
+    /// Kills a side at once. It sends no goodbye.
     void kill(std::size_t side) { sides_[side].player.reset(); }
     /// Starts it again as a new run.
     void revive(std::size_t side);
