@@ -11,8 +11,8 @@ namespace hapnet::peer::device_state {
 
 /// The state of one real device in its file, $XDG_STATE_HOME/hapnet/device/NAME.json, or below
 /// ~/.local/state: read at the start, and written at once (mode 0600) whenever it changes. A file
-/// that cannot be read counts as none; one that cannot be written is said and leaves a session as
-/// it is.
+/// that cannot be read counts as missing. One that cannot be written is reported, and the session
+/// goes on.
 class KeptDevice {
 public:
     KeptDevice(const device::Identity& identity, std::string_view place);
