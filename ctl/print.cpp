@@ -133,7 +133,7 @@ std::string diff_text(const Json& reply)
     return text.empty() ? "nothing would change\n" : text;
 }
 
-/// Paths of which a person is told the numbers of their datagrams.
+/// The most paths whose datagram numbers are printed for a person.
 constexpr std::size_t paths_told_max = 4;
 
 /// Says from which datagrams on the conditions hold.

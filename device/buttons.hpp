@@ -12,9 +12,10 @@
 
 namespace hapnet::device {
 
-/// The switches of a device, debounced: a switch counts as pressed or released once it has said so
-/// for 5 ms without a break. At first all are up, so that a switch that is held from the start on
-/// is a press. Switches that bounce longer are worn out, and no finger presses for a shorter time.
+/// The switches of a device, debounced: a switch counts as pressed or released once the device has
+/// reported this for 5 ms without a break. At first all are up, so that a switch that is held from
+/// the start on is a press. Switches that bounce longer are worn out, and no finger presses for a
+/// shorter time.
 class Buttons {
 public:
     static constexpr base::Duration settling{std::chrono::milliseconds{5}};

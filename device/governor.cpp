@@ -192,7 +192,7 @@ base::Force Governor::within_energy(const base::Force& wanted, const Sample& sam
 }
 
 /// Call it before anything else in a tick: the last force was held until now. A latch in the
-/// meantime makes no difference: a record does not tell whether a watchdog saw a stall before the
+/// meantime makes no difference: a record does not show whether a watchdog saw a stall before the
 /// governor did.
 void Governor::observe(const Sample& sample, base::Duration gap)
 {

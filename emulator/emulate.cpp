@@ -232,7 +232,7 @@ private:
         return setup;
     }
 
-    /// Tells what a person should know by now; gives when to call it again.
+    /// Prints what a person should know by now. Returns when to call it again.
     std::optional<base::TimePoint> look_after(base::TimePoint now, const control::DoWork& work)
     {
         if (const auto trouble = recorder_.keep_trouble()) status_.say(*trouble);

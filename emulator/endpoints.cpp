@@ -29,7 +29,7 @@ struct Side {
     std::optional<net::AddressSet> allowed;
 };
 
-/// Looks up where datagrams go, and tells of a name that has several addresses: the program may
+/// Looks up where datagrams go, and reports a name that has several addresses: the program may
 /// listen on another one than the first.
 net::Endpoint look_up_destination(const net::HostPort& where, const std::string& option,
                                   int family = AF_UNSPEC)

@@ -15,14 +15,14 @@ namespace hapnet::emulator {
 /// is when `beside` is empty.
 [[nodiscard]] std::string path_beside(const std::string& name, const std::string& beside);
 
-/// The text of a file that a client of the control socket names, by path_beside(). Anything but a
-/// regular file is refused: a pipe would keep the run waiting.
+/// Returns the text of a file that a client of the control socket names. path_beside() says where
+/// it is. Anything but a regular file is refused: a pipe would keep the run waiting.
 [[nodiscard]] base::Result<std::string> text_beside(const std::string& name,
                                                     const std::string& beside);
 
-/// Reads the preset of that name, or else a file. The error names the file and the line. It may
-/// speak of the paths that `names` has. Where there is none to read, the error names the option,
-/// if one was typed.
+/// Reads the preset of that name, or else a file. The error names the file and the line. The
+/// profile may have conditions of the paths in `names`. If there is neither preset nor file, the
+/// error names the option, if one was typed.
 [[nodiscard]] base::Result<Profile> load_profile(const std::string& file_or_name,
                                                  const PathNames& names = {.any = true},
                                                  std::string_view option = "");

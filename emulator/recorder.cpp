@@ -169,7 +169,7 @@ void Recorder::Fates::copy(const Piece& piece, std::string& buffer)
     }
 }
 
-/// The ways follow each other.
+/// Appends the rows of all ways but the first to the file, one way after the other.
 void Recorder::Fates::join()
 {
     std::string buffer;

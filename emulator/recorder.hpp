@@ -78,7 +78,7 @@ public:
     /// Orders a capture of the packets since that time; gives its path. Never waits: the file
     /// appears, whole, soon after. The error says why there will be none. From one thread.
     [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
-    /// Why an ordered capture could not be written; once.
+    /// Returns once why an ordered capture could not be written.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
     /// True if a file could not be written (a full disk): from then on everything of it is lost.

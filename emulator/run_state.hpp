@@ -45,7 +45,7 @@ struct PathState {
     base::Duration elapsed{};             // time since the run began
     std::vector<ConditionChange> changes; // the most recent changes
     std::uint64_t changes_omitted = 0;    // changes that are not in `changes`
-    WayState up;                          // if there are flows: the traffic of none of them
+    WayState up;                          // if there are flows: traffic that is in no flow
     WayState down;
     std::vector<PathState> flows; // states of the flows, in the profile's order
     Statistics all_up;            // if there are flows: sums of them and the rest

@@ -28,7 +28,7 @@ struct WireEnd {
     std::optional<MacAddress> machine{}; // MAC of eth0; nullopt: the kernel draws one
 };
 
-/// Makes eth0 as the command is to find it: for net::ChildCommand::Setup::prepare.
+/// Sets up eth0 for the command. Use it as net::ChildCommand::Setup::prepare.
 void prepare(const WireEnd& end);
 
 /// Makes the wire to the command, and has it prepare its end. Call it in the emulator's network.

@@ -85,7 +85,7 @@ net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& l
     }
 }
 
-/// Returns the option with which the command line may have said where another peer is.
+/// Returns the option by which the command line names the place of another peer.
 std::string option_of(const Options& options, const NamedPeer& other)
 {
     return options.is_pair() ? "--remote" : fmt::format("--peer {}:", other.id);
@@ -175,7 +175,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.playout = options.playout;
     // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m / (mount.scale * mount.scale);
-    // A simulated hand cannot be hurt, and the experiments that it plays are told without that.
+    // A simulated hand cannot be hurt, so its experiments have no limit of stiffness.
     if (options.device.is_real()) {
         settings.stiffness_max_n_per_m =
             rig.device().capabilities().stiffness_max_n_per_m / (mount.scale * mount.scale);
@@ -343,7 +343,7 @@ int write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& f
     return code;
 }
 
-/// Tells how the run went; its exit code.
+/// Prints how the run went, and returns its exit code.
 int conclude(const monitor::Run& run, const device::Governor& governor, Screen& screen)
 {
     screen.err.put(base::visible_lines(summary(run)));

@@ -176,7 +176,8 @@ struct Bodies {
 
 private:
     void add_parts(const Description& description);
-    /// Alike about every axis, or about the world's own axes: no frame to turn into.
+    /// True if the body responds equally about every axis, or does not turn freely. Then its
+    /// response needs no change of frame.
     [[nodiscard]] static bool responds_alike(const BodyProperties& body)
     {
         return body.is_isotropic || body.turning != Turning::free;

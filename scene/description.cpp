@@ -253,7 +253,7 @@ void add(Hash& hash, const BodyDescription& body)
     hash.add(base::to_seconds(body.sway.period));
 }
 
-/// Scenes without any keep the hash that they had before there were any.
+/// Adds nothing for a scene without parts, so that its hash does not depend on them.
 void add_parts(Hash& hash, const Description& description)
 {
     constexpr std::uint64_t part_mark = 0x70617274;
@@ -269,7 +269,7 @@ void add_parts(Hash& hash, const Description& description)
     }
 }
 
-/// Scenes without it keep the hash that they had before there was any.
+/// Adds nothing for a scene whose hands have no friction, so that its hash does not depend on it.
 void add_hand_friction(Hash& hash, const Description& description)
 {
     constexpr double unset = -1.0;

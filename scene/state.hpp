@@ -47,7 +47,7 @@ public:
         return kind_of_.empty() ? alike : kinds_[kind_of_[body] + hand];
     }
 
-    /// The hand's properties on things without a feel of their own, such as planes.
+    /// Returns the hand's properties on things without a Feel of their own, such as planes.
     [[nodiscard]] const HandDescription& of(std::uint32_t hand, const HandDescription& alike) const
     {
         return kinds_.empty() ? alike : kinds_[hand];
@@ -118,7 +118,7 @@ struct Interventions {
     std::uint64_t islands_limited = 0;
     std::uint64_t paths_cut = 0;     // a body lost the rest of its way in the tick
     std::uint64_t budgets_spent = 0; // the work of a tick ended before it was done
-    // Mechanisms: nothing was lost but what a law forbids.
+    // Mechanisms: nothing was lost except what a law forbids.
     std::uint64_t hands_braked = 0;     // a hand's impulse was scaled down so that it stays passive
     std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its velocities
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained

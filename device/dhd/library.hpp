@@ -12,7 +12,7 @@ namespace hapnet::device::dhd {
 // (forcedimension_core for Python, sawForceDimensionSDK); the names are ours. Metres and newtons; x
 // points toward the user, y to the right, z up.
 
-/// Numbers a device that is open; -1: the default one, which this program never means.
+/// The number of an open device. This program never uses -1, which means the default device.
 using Id = char;
 
 /// The result of a function that has failed: see last_error(). Results above 0 are harmless, such

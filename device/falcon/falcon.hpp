@@ -46,7 +46,8 @@ public:
     void halt() noexcept override;
 
     /// Silence, or nonsense, for longer than silence_max is a fault, if the device was read at
-    /// least silent_reads_min times meanwhile. A host that was away cannot tell.
+    /// least silent_reads_min times meanwhile. A host that did not read in time cannot know of a
+    /// silence.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
     static constexpr int silent_reads_min = 5;
     /// A packet without an answer after this time counts as lost.

@@ -65,7 +65,8 @@ public:
     /// Accounts for a force that was held for this time while the hand moved to `hip`. In the
     /// device's frame.
     void pass(const base::Force& held, const base::Position& hip, base::Duration duration);
-    /// The device does not tell where the hand is: the next place is not compared with the last.
+    /// Call it when the device does not report where the hand is. The next place is then not
+    /// compared with the last one.
     void lose_place() { placed_ = false; }
 
     /// Returns the permitted part of the next force while the device reports this velocity.

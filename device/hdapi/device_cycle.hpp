@@ -42,15 +42,15 @@ public:
     /// Goes on with the calibration, opens the frame, and reads. The motors are off in the first
     /// frame after a start.
     const Report& begin();
-    /// Sets the force and closes the frame. No force while the library says that the device is not
-    /// calibrated, nor by a command that is `is_new` no more for 20 cycles: who gave it has
-    /// stopped.
+    /// Sets the force and closes the frame. The force is zero while the library says that the
+    /// device is not calibrated. It is also zero once no command was `is_new` for 20 cycles: the
+    /// thread that gives commands has stopped.
     void end(const Command& command, bool is_new);
     /// Notes an error of this device, after end(). The last call of a cycle counts.
     void note(unsigned int code) { happened_ = code; }
 
     [[nodiscard]] Handle handle() const { return handle_; }
-    /// Frames in a row that told the device zero force with its motors off.
+    /// Frames in a row that sent the device zero force with its motors off.
     [[nodiscard]] std::uint64_t silent_frames() const { return silent_frames_; }
 
     static constexpr std::uint64_t stale_after_cycles = 20; // 20 ms at 1 kHz

@@ -29,10 +29,10 @@ struct PidParts {
 /// user is up, as on a screen. Places are uncalibrated shares of the reach, forces uncalibrated
 /// shares of full scale.
 ///
-/// Many such devices say nothing while nothing moves. So after 8 ms of silence a report that the
-/// device takes counts as its word that it is where it was: under force it is sent some in each
-/// tick, at rest it is told then that its actuators are disabled. A device that neither speaks nor
-/// takes reports is silent; one that is only read may be.
+/// Many such devices send nothing while nothing moves. So after 8 ms of silence a report that the
+/// device accepts counts as a sign that it has not moved. Under force it gets reports in each tick;
+/// at rest it then gets a report that its actuators are disabled. A device that neither sends nor
+/// accepts reports is silent. A device that is only read may be silent.
 ///
 /// When this program is killed the device lets go by itself 100 ms later, if it keeps to the
 /// duration of its effects: nothing else stops it then but its power switch.

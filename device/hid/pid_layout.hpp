@@ -30,8 +30,9 @@ struct Selector {
     std::vector<Field> fields{}; // all in one report
 };
 
-/// Where a PID device wants to hear what of a constant force: USB Device Class Definition for
-/// Physical Interface Devices 1.0. Report IDs and places differ from device to device.
+/// The places in its reports at which a PID device expects the parts of a constant force: USB
+/// Device Class Definition for Physical Interface Devices 1.0. Report IDs and places differ from
+/// device to device.
 struct ForceLayout {
     struct SetEffect {
         ReportPlace place{};

@@ -43,7 +43,7 @@ std::optional<RecognisedDevice> recognise(const HidNode& shown)
 {
     if (!shown.descriptor) return std::nullopt;
     const auto descriptor = parse_descriptor(*shown.descriptor);
-    // A device without a valid descriptor is none of the supported ones.
+    // A device without a valid descriptor is not supported.
     if (!descriptor) return std::nullopt;
     RecognisedDevice seen{.path = shown.path,
                           .node = shown.path.substr(shown.path.rfind('/') + 1),

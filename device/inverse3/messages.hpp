@@ -51,8 +51,8 @@ inline constexpr std::size_t id_bytes_max = 64;
 /// A state is calibrated only if it says so.
 [[nodiscard]] base::Result<ServiceState> parse_state(std::string_view text);
 
-/// The message that tells the device a force, which answers itself with a state. Zero where the
-/// motors are off.
+/// The message that sends the device a force. The device answers it with a state. The force is zero
+/// where the motors are off.
 [[nodiscard]] std::string force_message(std::string_view id, const polled::Command& command);
 
 /// A device's state as a report. nullptr: it is not among the devices any more.

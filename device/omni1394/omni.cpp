@@ -54,7 +54,7 @@ Capabilities capabilities_of(const Drive& drive)
     return can;
 }
 
-/// Says to the device what the sequence wants said.
+/// Carries out the register accesses of the sequence. Returns the serial number.
 Opened<std::string> run(Link& link, StartSequence& sequence)
 {
     std::array<std::byte, 4> buffer{};

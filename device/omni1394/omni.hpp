@@ -22,7 +22,8 @@ namespace hapnet::device::omni1394 {
 /// reaction when this program is killed is therefore unknown, too; no more packets come then.
 class Omni final : public Device {
 public:
-    /// Goes through the start; gives a device that speaks, or why it does not.
+    /// Runs the start sequence. Returns the device once it has started, or the reason why it has
+    /// not.
     [[nodiscard]] static Opened<std::unique_ptr<Device>> open(std::unique_ptr<Link> link,
                                                               const Profile& profile, Use use);
     ~Omni() override;

@@ -27,8 +27,8 @@ struct RegisterAccess {
     }
 };
 
-/// The dialogue that makes an Omni stream, step by step: its identity, the channels,
-/// and go. Does no I/O: ask next(), do that, and tell the answer.
+/// The dialogue that makes an Omni stream, step by step: its identity, the channels, and go. It
+/// does no I/O: carry out the access that next() returns, and pass the answer to on_answer().
 class StartSequence {
 public:
     StartSequence(const Channels& channels, bool writes_dubious_register)

@@ -36,8 +36,8 @@ public:
     Exchange(const Exchange&) = delete;
     Exchange& operator=(const Exchange&) = delete;
 
-    /// Tells the device the force, then reads it; the cycle is the caller's to count. nullopt: it
-    /// did not answer in time. May wait, and may throw nothing.
+    /// Sends the device the force, then reads its report. The caller counts the cycles. nullopt:
+    /// the device did not answer in time. May wait, and may throw nothing.
     [[nodiscard]] virtual std::optional<Report> tell(const Command& command) = 0;
 };
 

@@ -11,9 +11,8 @@
 
 namespace hapnet::device {
 
-/// The involuntary part of a hand: wander and tremor along x, and what its force lacks of
-/// being even. Sums of sines whose frequencies and phases come from the seed, so that it is a pure
-/// function of time.
+/// The involuntary part of a hand: wander and tremor along x, and an error of its force. Sums of
+/// sines whose frequencies and phases come from the seed, so that it is a pure function of time.
 class HandNoise {
 public:
     HandNoise(base::Seed seed, std::uint16_t peer_id, const Operator& person);
@@ -22,7 +21,7 @@ public:
         double away_m = 0.0;      // distance from where the hand wants to be
         double force_share = 0.0; // error of the force, as a share of it
     };
-    /// `seconds` from the start.
+    /// Returns the value at `seconds` after the start.
     [[nodiscard]] Value at(double seconds) const;
 
 private:

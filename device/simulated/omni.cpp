@@ -85,7 +85,8 @@ void SimulatedOmni::advance(const Person::Aim& aim, base::TimePoint now)
 void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,
                           base::Duration elapsed)
 {
-    // The intention moves evenly from what it was. Late reads are lived through in short steps.
+    // The intention moves evenly from what it was. The time before a late read is simulated in
+    // short steps.
     const auto steps = (elapsed + step_max - base::Duration{1}) / step_max;
     const double share = 1.0 / static_cast<double>(steps);
     const double seconds = share * base::to_seconds(elapsed);
@@ -123,7 +124,7 @@ glm::dvec3 SimulatedOmni::position() const
 glm::dvec3 SimulatedOmni::quantised(const glm::dvec3& position) const
 {
     const auto count = [this](double x) {
-        // The nearest whole number, by the rounding of an addition: std::nearbyint is a call.
+        // The addition rounds to the nearest whole number. std::nearbyint would be a function call.
         constexpr double shift = 6755399441055744.0; // 1.5 * 2^52
         return ((x / performer_.plant.resolution_m + shift) - shift) *
                performer_.plant.resolution_m;

@@ -49,7 +49,7 @@ public:
 
     /// read() goes on in one exact step, unless it comes later than this after the last.
     static constexpr base::Duration step_max{std::chrono::milliseconds{2}};
-    /// A longer gap between reads is not lived through.
+    /// The longest time between two reads that is simulated. A longer one is skipped.
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:

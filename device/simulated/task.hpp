@@ -44,11 +44,11 @@ inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3, Ta
 /// paper's scene, more play in one with room for their hands.
 [[nodiscard]] std::string_view scene_of(Task task, std::size_t peers = 2);
 
-/// The x of the path that the cube is to follow, metres, `seconds` from the start: the sum of
-/// four sines, cut off at the static cube, fitted so that the one-way delay of 160 ms alone gives
-/// the first column of the paper's Table 1 (13.61 mm mean, 10.68 mm standard deviation, 47.25 mm
-/// maximum). Starts at 0 and swings in within the first second. The hand that carries the cube aims
-/// along it, and so stops where the static cube stops the cube.
+/// The x of the path that the cube is to follow, metres, `seconds` from the start: the sum of four
+/// sines, cut off at the static cube, fitted so that the one-way delay of 160 ms alone gives the
+/// first column of the paper's Table 1 (13.61 mm mean, 10.68 mm standard deviation, 47.25 mm
+/// maximum). The path starts at 0 and reaches its full size within the first second. The hand that
+/// carries the cube aims along it, and so stops where the static cube stops the cube.
 [[nodiscard]] double path_x(double seconds);
 
 } // namespace hapnet::device

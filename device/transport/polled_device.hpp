@@ -16,8 +16,8 @@ class PolledDevice final : public Device {
 public:
     PolledDevice(std::unique_ptr<polled::Exchange> exchange, Identity identity,
                  const Capabilities& capabilities);
-    /// Waits until three exchanges have said zero, but no longer than close_max: a thread that
-    /// hangs lets go of the device when its call returns.
+    /// Waits until three exchanges have sent zero force, but no longer than close_max: a thread
+    /// that hangs lets go of the device when its call returns.
     ~PolledDevice() override;
     PolledDevice(const PolledDevice&) = delete;
     PolledDevice& operator=(const PolledDevice&) = delete;

@@ -16,12 +16,12 @@
 
 namespace hapnet::emulator {
 
-/// The running emulator as its control sees it. Whatever takes time happens on the thread of the
-/// control; only what looks at the paths or changes them is done by `work`, a step at a time,
-/// between two datagrams.
+/// The running emulator as its control sees it. Everything that takes time happens on the thread of
+/// the control. Only steps that read or change the paths are done by `work`, one at a time, between
+/// two datagrams.
 struct Emulation {
     AllPaths paths; // used by steps of `work` only, except names()
-    /// The statistics as one JSON object; looks by steps of `work`.
+    /// The statistics as one JSON object. It reads the paths in steps of `work`.
     std::function<nlohmann::ordered_json(const control::DoWork& work)> statistics;
     /// Ends the run, as a signal does. In a step of `work`.
     std::function<void()> stop;

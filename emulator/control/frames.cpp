@@ -68,7 +68,7 @@ Frames::Look Frames::share_out(AllPaths& paths, const control::DoWork& work)
 
 WayFrame Frames::frame_of(Way& way, const Seen& seen)
 {
-    // A path that has gone and come again begins at 0.
+    // The counters of a path that disappeared and came back begin at 0.
     if (seen.counters.received < way.counters.received) way = {};
     const WayFrame frame{base::counted_since(seen.counters, way.counters), way.pulse};
     way = {{}, seen.counters};

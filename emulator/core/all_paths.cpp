@@ -18,7 +18,8 @@ base::Result<void> AllPaths::apply(const Paths::CommandFor& command,
                                    std::span<const std::string> mentioned, base::TimePoint now,
                                    ChangeCause by)
 {
-    // A part is stamped by what arrives at it, and all have to be told at the same time.
+    // The time of a part is that of its last arrival. All parts must get the command at the same
+    // time.
     for (const Paths* part : parts_) now = std::max(now, part->now());
     for (Paths* part : parts_) part->catch_up(now);
     for (Paths* part : parts_) part->count_from(generation());

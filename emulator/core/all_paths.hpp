@@ -29,7 +29,7 @@ public:
     /// Grows as that of each part does.
     [[nodiscard]] std::uint64_t generation() const;
     [[nodiscard]] base::Duration elapsed() const;
-    /// The latest time that one of them has been told.
+    /// The latest time that any part has been given.
     [[nodiscard]] base::TimePoint latest_now() const;
     [[nodiscard]] std::optional<base::TimePoint> next_change() const;
     [[nodiscard]] PathNames names() const { return parts_.front()->names(); }

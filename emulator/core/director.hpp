@@ -98,13 +98,13 @@ public:
         return base::is_due(next_change_, now_) && change_after(before);
     }
 
-    /// Does what is asked, at once; changes nothing when it is refused. Apply and Reset are never
-    /// refused.
+    /// Carries out the command at once. Changes nothing when it is refused. Apply and Reset are
+    /// never refused.
     base::Result<void> apply(const Command& command, base::TimePoint now);
 
-    /// True if both are at the same point, as far as it can be told at once: what is done to both
-    /// makes them the same again, and so has to be done once only. Their times may differ while
-    /// nothing has become due.
+    /// True if a quick check finds both at the same point. A command to both makes them the same
+    /// again, so it has to be carried out only once. Their times may differ while nothing has
+    /// become due.
     [[nodiscard]] bool is_twin_of(const Director& other) const;
 
     /// The profile that it follows, with the timeline.

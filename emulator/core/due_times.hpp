@@ -18,7 +18,7 @@ namespace hapnet::emulator {
 /// changes, not of places.
 class DueTimes {
 public:
-    /// A place that is told apart from the others.
+    /// One of the places, by its number.
     class Place {
     public:
         Place() = default; // belongs to no path: marking it does nothing

@@ -94,7 +94,7 @@ public:
         return base::earlier(next_due(), director_.next_change());
     }
 
-    /// Does what is asked, at once; see Director::apply().
+    /// Carries out the command at once; see Director::apply().
     base::Result<void> apply(const Command& command, base::TimePoint now,
                              ChangeCause by = ChangeCause::hand);
 

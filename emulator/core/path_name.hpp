@@ -39,26 +39,27 @@ struct PathParts {
 /// for a path that is no flow.
 [[nodiscard]] std::string_view common_name(std::string_view name);
 
-/// A way as the keys of settings call it.
+/// Returns the name of a way, one direction of a path, in the keys of settings.
 [[nodiscard]] std::string way_name(std::string_view path, Direction direction);
 
-/// A way as the names of its random streams begin: with '/' instead of '.', "client/3/up".
+/// Returns the beginning of the names of a way's random streams: with '/' instead of '.',
+/// "client/3/up".
 [[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
 
 /// As stream_name(), for streams that both directions share: "both", "client/3/both", "1-2/both".
 [[nodiscard]] std::string stream_name_of_both(std::string_view path);
 
-/// A way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
+/// Describes a way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
 /// "client.3.down: from the server".
 [[nodiscard]] std::string way_in_words(std::string_view path, Direction direction);
 
-/// True if its ways are called by two peers.
+/// True if the path is named after two peers, such as "1-2".
 [[nodiscard]] bool is_pair(std::string_view path);
 
 /// A name as --link takes it: "1-2" with the lower number first, or a word.
 [[nodiscard]] base::Result<std::string> parse_link_name(std::string_view text);
 
-/// A way, or both of a path; both of all paths when there is no name.
+/// One way of a path, or both. An empty `path` means all paths.
 struct Way {
     std::string path;
     std::optional<Direction> direction; // nullopt: both
@@ -93,7 +94,7 @@ struct PathNames {
     std::string without_links{};             // why no links exist; "": without a reason
 
     [[nodiscard]] bool contains(std::string_view path) const;
-    /// Why not: "there is no link 1-3: use one of 1-2, 2-3".
+    /// Says why contains() is false: "there is no link 1-3: use one of 1-2, 2-3".
     [[nodiscard]] std::string refusal(std::string_view path) const;
 };
 

@@ -210,7 +210,7 @@ void Paths::find_next_change()
     }
 }
 
-/// Keeps apart those that are told something of their own before they come.
+/// Keeps a director for each path that gets its own settings before it exists.
 base::Result<void> Paths::expect(std::span<const std::string> mentioned)
 {
     if (newcomers_.empty()) return {};

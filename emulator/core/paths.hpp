@@ -57,7 +57,7 @@ public:
         if (base::is_due(next_change_, now)) advance_all(now);
     }
 
-    /// Like advance(), and tells all paths the time, also where nothing changes.
+    /// Like advance(), but gives all paths the time, also where nothing changes.
     void catch_up(base::TimePoint now)
     {
         now_ = std::max(now_, now);
@@ -69,15 +69,16 @@ public:
     using CommandFor =
         std::function<base::Result<Command>(std::string_view path, const Path& conditions)>;
 
-    /// Tells all of them at once. Nothing changes when one would refuse. `mentioned`: the names
-    /// that the command speaks of; of those that are not there it is kept until they come.
+    /// Applies commands to all paths at once. Nothing changes when one path would refuse.
+    /// `mentioned`: the names in the command. For a path that does not exist yet, the command is
+    /// kept until it appears.
     base::Result<void> apply(const CommandFor& command, std::span<const std::string> mentioned,
                              base::TimePoint now, ChangeCause by = ChangeCause::hand);
 
     /// 1 at first, and one more whenever conditions have changed or other profiles were applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
     [[nodiscard]] base::Duration elapsed() const { return now_ - setup_.start; }
-    /// The latest time that it has been told.
+    /// The latest time that the paths have been given.
     [[nodiscard]] base::TimePoint now() const { return now_; }
 
     /// The next generation comes after this one.

@@ -41,7 +41,7 @@ public:
         return now_;
     }
 
-    /// The one that was asked for last.
+    /// The index of the regime that at() returned last.
     [[nodiscard]] std::size_t current() const { return now_; }
 
     /// The time when the regime of current() ends.

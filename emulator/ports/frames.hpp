@@ -44,8 +44,8 @@ public:
         /// puts segments together.
         std::string cure_of_oversized{};
 
-        /// The names of the paths between each two ends: "a-b", "a-c", "b-c"; of two ends the only
-        /// one has none. `up` is from the first to the second.
+        /// The names of the paths between each two ends: "a-b", "a-c", "b-c". The only path between
+        /// two ends has no name. `up` is from the first to the second.
         [[nodiscard]] std::vector<std::string> path_names() const;
     };
 
@@ -59,7 +59,7 @@ public:
         net::PacketSocket socket;
         FrameBatch leaving;
         std::size_t frame_bytes_max;   // longest frame that its MTU allows, without VLAN tags
-        std::uint64_t undisturbed = 0; // frames that the conditions do not hold for
+        std::uint64_t undisturbed = 0; // frames to which no conditions apply
         std::uint64_t not_ip = 0;
         std::uint64_t oversized = 0;        // longer than the MTU: merged by an interface
         std::uint64_t lost_undisturbed = 0; // frames among `undisturbed` that were not sent
@@ -88,13 +88,13 @@ public:
     /// Sends what is due at `now`; what is left is still due.
     void release(base::TimePoint now);
 
-    /// Something that a person should be told of, once.
+    /// Returns the next message for a person, each only once.
     [[nodiscard]] std::optional<std::string> next_notice();
 
-    /// Why it must not go on; nullopt: it may.
+    /// The reason why the run must end; nullopt: it may go on.
     [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
 
-    /// Makes the loss of an interface no failure from now on: the program behind it ends.
+    /// From now on the loss of an interface is no failure, because the program behind it ends.
     void expect_end() { is_end_expected_ = true; }
 
     [[nodiscard]] const std::deque<End>& ends() const { return ends_; }

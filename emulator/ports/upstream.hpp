@@ -27,8 +27,8 @@
 namespace hapnet::emulator::ports {
 
 /// A server and its clients: each address that sends gets a socket of its own to the server, and
-/// an emulated path of its own. Like a NAT for UDP, and for no address that it is not told to let
-/// in. Moves datagrams; EmulatedPath, ClientTable and AddressSet take every decision.
+/// an emulated path of its own. It works like a NAT for UDP, but only for addresses that it may let
+/// in. It moves datagrams; EmulatedPath, ClientTable and AddressSet take every decision.
 ///
 /// The clients are in parts, which may be at work side by side, each on a thread of its own. Where
 /// there are several, the kernel deals out the clients by their addresses.

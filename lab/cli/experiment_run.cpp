@@ -67,7 +67,7 @@ std::string name_of_point(const LoadedExperiment::Part& part)
     return is_name ? part.values.front() : fmt::format("point-{}", part.point + 1);
 }
 
-/// Returns the cells that come before a line's own in a table: they tell its point of the axes.
+/// Returns the cells that come before a line's own in a table: they name its point of the axes.
 std::vector<results::LeadingCell> leading_cells(const std::vector<experiment::Axis>& axes,
                                                 const LoadedExperiment::Part& part)
 {
@@ -104,7 +104,7 @@ void write_records(const fs::path& out, const LoadedExperiment::Part& part)
     }
 }
 
-/// The jobs of a part that a shard has.
+/// Returns the jobs of a part that the shard takes.
 std::vector<experiment::Job> jobs_of(const LoadedExperiment::Part& part,
                                      experiment::ShardDeal& deal)
 {
@@ -336,7 +336,7 @@ void collect_sessions(const fs::path& folder, std::vector<std::string>& paths)
     }
 }
 
-/// The shards that have begun and not said that they have all: "3/16, 7/16".
+/// The shards that have begun but not finished: "3/16, 7/16".
 std::string unfinished_among(const std::vector<std::string>& files)
 {
     std::vector<std::string> shards;

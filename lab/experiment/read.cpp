@@ -115,7 +115,7 @@ void read_kind(TableReader& table, Kind& kind)
     std::visit(read, kind);
 }
 
-/// True if the results of the kind tell several numbers of peers, or scenes, apart.
+/// True if the results of the kind distinguish several numbers of peers or several scenes.
 bool has_parties(const Kind& kind)
 {
     return std::holds_alternative<Limits>(kind) || std::holds_alternative<ImpairmentGrid>(kind);
@@ -181,7 +181,7 @@ void check_record(const Experiment& experiment, base::Place place, Reading& read
         reading.complain(place, "a record has ticks of 1 ms: leave 'tick' out");
 }
 
-/// Complains of people whose sessions no result of the kind tells apart.
+/// Complains of recorded people if no result of the kind distinguishes their sessions.
 void check_people(const Experiment& experiment, base::Place place, Reading& reading)
 {
     const auto* limits = std::get_if<Limits>(&experiment.kind);

@@ -30,7 +30,7 @@ scene::Description scene_for(device::Task task, std::size_t peers)
     return *built_in;
 }
 
-/// A way of a hand; empty without one.
+/// Returns the text of the prescribed motion of a hand; empty without one.
 std::string way_text(std::string text, const std::shared_ptr<const device::HandTrace>& way)
 {
     if (!way) return {};

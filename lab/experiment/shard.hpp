@@ -31,7 +31,7 @@ inline constexpr std::uint32_t shards_max = 100'000;
 /// there are fewer twins than shards; then they go round.
 class ShardDeal {
 public:
-    /// `first_jobs`: those that will be asked for first; they tell how many twins there are.
+    /// `first_jobs`: the jobs that takes() will get first. They determine how many twins there are.
     ShardDeal(const Shard& shard, const std::vector<Job>& first_jobs);
 
     /// True if the next job is of the shard.

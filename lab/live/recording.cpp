@@ -119,7 +119,7 @@ void Recording::show_until(Playback& one, base::TimePoint until)
     }
 }
 
-/// A tick and what belongs to it, as its peer told those who watched.
+/// Shows a tick and what belongs to it, as a running peer shows them to its watchers.
 void Recording::show(Playback& one, const record::TickRow& tick)
 {
     const auto& messages = one.side.messages;

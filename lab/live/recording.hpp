@@ -20,9 +20,9 @@
 
 namespace hapnet::lab::live {
 
-/// A session that is over, out of the records of its two peers: it plays as a Session does, at the
-/// pace that it is told and from any moment, and nothing of it can be changed. Its times are those
-/// of the records, each on the clock of its peer. Reads no clock.
+/// A finished session from the records of its two peers. It plays as a Session does, at the
+/// requested pace and from any moment, but nothing of it can be changed. Its times are those of the
+/// records, each on the clock of its peer. Reads no clock.
 class Recording {
 public:
     /// Takes the last session that both records know. The records may be in either order. Both

@@ -23,10 +23,11 @@
 
 namespace hapnet::lab::live {
 
-/// A session in virtual time that is watched while it plays: it goes on as far as it is told, its
-/// conditions change as those of a running emulator do, and it may be sought, back and forth: it is
-/// played again from its seed, with all that was set. Further algorithms play beside the first,
-/// each in a session of its own, under the same network, datagram for datagram. Reads no clock.
+/// A session in virtual time that is watched while it plays: it plays as far as the caller asks,
+/// and its conditions change as those of a running emulator do. It can go to any time, back or
+/// forth: it is then played again from its seed, with all settings. Further algorithms play beside
+/// the first, each in a session of its own, under the same network, datagram for datagram. Reads no
+/// clock.
 class Session {
 public:
     static constexpr std::size_t algorithms_max = 3;
@@ -66,8 +67,8 @@ public:
     [[nodiscard]] control::Answer answer(std::string_view line);
     [[nodiscard]] nlohmann::ordered_json statistics() const;
 
-    /// Tells the hand of a page what to do from now on, in all sessions; nullopt: it is let go. It
-    /// is part of the session as a change of the conditions is.
+    /// Moves the hand of a page from now on, in all sessions; nullopt releases it. It is part of
+    /// the session as a change of the conditions is.
     void hand(const std::optional<device::HandWish>& wish);
     /// True if a page moves A's hand.
     [[nodiscard]] bool has_page_hand() const

@@ -21,7 +21,7 @@ namespace {
 constexpr double vibration_steps_per_m = 1e5;
 constexpr double stiffness_steps = 1e3;
 
-/// The values of a number by task; sessions that do not tell it are left out.
+/// The values of a number by task. Sessions without that number are left out.
 template <typename Value>
 std::map<device::Task, std::vector<double>> by_task(std::span<const Scores> sessions, Value value)
 {

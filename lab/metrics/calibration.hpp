@@ -21,8 +21,8 @@ struct CalibrationSessions {
 /// of the slow stiffness error at the delay, to the nearest thousandth; each of the task in which
 /// it is worst. So half of that task's sessions fail there, which is what a limit is.
 ///
-/// Refuses sessions of which none tells a number, and tasks of which more than half of the sessions
-/// are not usable by what is not calibrated.
+/// Refuses sessions if none of them has a number to calibrate by. Refuses tasks in which more than
+/// half of the sessions are not usable by metrics that are not calibrated.
 [[nodiscard]] base::Result<Criteria> calibrated(const CalibrationSessions& sessions,
                                                 const Criteria& rest);
 

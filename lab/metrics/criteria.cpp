@@ -23,7 +23,7 @@ std::string comment(std::string_view about)
     return text;
 }
 
-/// A line for each field below a comment that describes it; tables follow with a head of their own.
+/// Prints each field on a line below a comment that describes it, and each table below its head.
 std::string commented_lines(const base::FieldTable& fields, const void* value)
 {
     std::string text;

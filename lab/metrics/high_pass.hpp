@@ -73,10 +73,10 @@ constexpr auto fields_of(base::Tag<ByOrder>)
         base::field("fourth", &ByOrder::fourth, vibration_format, "with a filter of fourth order"));
 }
 
-/// The root mean square of what is above `cutoff` in `signal`, by Butterworth high-passes of
-/// first, second and fourth order, over the samples that `counts` marks (all when it is empty;
-/// the filters see every sample all the same). In the signal's unit. The signal is taken to have
-/// been at its first value before. nullopt when nothing counts.
+/// The root mean square of the part of `signal` above `cutoff`, in the signal's unit, by
+/// Butterworth high-passes of first, second and fourth order. The filters see every sample. Only
+/// the samples that `counts` marks enter the mean; all do when it is empty. Before its first
+/// sample, the signal is assumed to have had that value. nullopt when no sample counts.
 [[nodiscard]] std::optional<ByOrder> vibration_of(std::span<const double> signal,
                                                   std::span<const std::uint8_t> counts,
                                                   const Cutoff& cutoff);

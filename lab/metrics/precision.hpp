@@ -34,9 +34,9 @@ struct StepError {
 };
 
 /// The order p with which errors against a reference fall: |error| = C |step^p - reference^p|,
-/// fitted by least squares to the logarithms. `reference` is the step of the reference, 0 when that
-/// is the truth; steps are not equal to it. nullopt with fewer than two different steps, and when
-/// no p between 0.1 and 6 fits best.
+/// fitted by least squares to the logarithms. `reference` is the step of the reference, or 0 when
+/// the errors are against the truth. No step equals `reference`. nullopt with fewer than two
+/// different steps, and when no p between 0.1 and 6 fits best.
 [[nodiscard]] std::optional<double> order_of(std::span<const StepError> errors,
                                              double reference = 0.0);
 

@@ -14,7 +14,7 @@
 
 namespace hapnet::lab::records {
 
-/// Two of several peers. Their loops are told once for all.
+/// The report on two of several peers. The loops of all peers are reported once, elsewhere.
 struct PairReport {
     const Analysis* of = nullptr;
 };

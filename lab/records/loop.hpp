@@ -43,7 +43,7 @@ constexpr auto fields_of(base::Tag<Loop>)
             "The lateness of waking; null without ticks."));
 }
 
-/// A peer's loop, as an analysis tells it.
+/// The report on a peer's loop in an analysis.
 struct LoopReport {
     Loop tick;
 };

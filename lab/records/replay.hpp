@@ -27,7 +27,7 @@ struct ReplayedTick {
     base::Force device; // force that the governor let through to the device
 };
 
-/// A recorded session, lived through again in virtual time.
+/// A recorded session, replayed in virtual time.
 struct Replayed {
     std::vector<ReplayedTick> ticks;
     std::size_t messages = 0;

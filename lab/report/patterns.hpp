@@ -27,7 +27,7 @@ using results::TableRow;
 [[nodiscard]] std::vector<std::string> distinct(const Rows& rows, std::string_view key);
 /// The rows with this text in the column.
 [[nodiscard]] Rows where(const Rows& rows, std::string_view key, std::string_view text);
-/// The rows apart by the texts in some columns.
+/// The rows in groups, each with equal texts in these columns.
 [[nodiscard]] std::vector<Rows> split(const Rows& rows, std::span<const std::string_view> keys);
 /// The table with a further column.
 [[nodiscard]] Table with_column(Table table, std::string key,

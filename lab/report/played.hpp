@@ -24,8 +24,8 @@ namespace hapnet::lab::report {
 /// configuration cannot be read.
 [[nodiscard]] page::Json amounts_of(const results::Run& run);
 
-/// The title of an experiment. Empty where it has none, and where an axis of one's own makes
-/// another experiment of the built-in one whose title it has.
+/// The title of an experiment. Empty where it has none. It is also empty where the experiment has
+/// axes, and the built-in experiment of this title has none: then it is another experiment.
 [[nodiscard]] std::string own_title_of(const results::Run& run);
 
 } // namespace hapnet::lab::report

@@ -12,8 +12,8 @@
 
 namespace hapnet::lab::results {
 
-/// The number of players and their scene: the last columns of a table in which not all sessions are
-/// of two players in the task's own scene.
+/// The number of players and their scene: the last columns of a table in which not all sessions
+/// have two players in the task's own scene.
 struct PartyCells {
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};

@@ -157,7 +157,7 @@ void VirtualPlayer::step(base::TimePoint now)
     side->step(now + clock_ahead, rig);
     while (const auto notice = side->notice()) events.push_back(notice->event);
     const base::TimePoint here = now + clock_ahead;
-    // One a tick, and so one multiplication on the curve at most.
+    // One line in each tick, and so at most one multiplication on the curve.
     if (++tended >= lines.size()) tended = 0;
     lines[tended].tick({here, (here + date_ahead).time_since_epoch().count()});
 }

@@ -23,9 +23,9 @@ namespace hapnet::lab::virtual_time {
 /// receiver's socket: it is handed over at the next tick, stamped with the time at which it was
 /// due.
 ///
-/// The sides, one for each player, are counted through, group after group: those of the first have
-/// the numbers of their seats. Random draws of a link are those of an emulator's with this link:
-/// see links_between().
+/// The sides, one for each player, are numbered group after group. In the first group the number of
+/// a side is its seat. Random draws of a link are those of an emulator with this link: see
+/// links_between().
 class VirtualWorld {
 public:
     /// The time when every world and the timelines of its profiles begin.
@@ -52,7 +52,7 @@ public:
     /// Plays all that happens within `duration` from now, its end included.
     void run_for(base::Duration duration);
 
-    /// Kills a side on the spot; nothing is said.
+    /// Kills a side at once. It sends no goodbye.
     void kill(std::size_t side) { sides_[side].player.reset(); }
     /// Starts it again as a new run.
     void revive(std::size_t side);

@@ -56,7 +56,7 @@ public:
     ~KeyCommands() = default;
 
     [[nodiscard]] bool is_chosen() const;
-    /// The one that was chosen; an error when its options contradict each other.
+    /// Returns the chosen command; an error when its options contradict each other.
     [[nodiscard]] base::Result<KeyCommand> chosen() const;
 
 private:

@@ -43,7 +43,7 @@ base::Result<void> check_named(const KeyChoice& choice, const std::vector<NamedP
     return {};
 }
 
-/// The one at --remote.
+/// Returns the only other peer, which is at --remote.
 base::Result<std::vector<NamedPeer>> other_at(const net::HostPort& place, const KeyChoice& choice)
 {
     if (!choice.is_given()) return std::vector{NamedPeer{0, place}};

@@ -33,7 +33,7 @@ struct PeerControl {
     std::optional<base::Duration> held{};
     /// Orders a record of the held rows since a time; gives its path.
     std::function<base::Result<std::string>(const std::string& name, base::TimePoint from)> keep{};
-    /// Tells the hand of a page what to do, or lets it go; null: this peer has another device.
+    /// Moves or releases the hand of a page; null: this peer has another device.
     std::function<void(const std::optional<device::HandWish>& wish)> hand{};
 };
 

@@ -108,7 +108,7 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
     }
 }
 
-/// Both may know the start from others and tell it; each says that it has heard the other's.
+/// Both sides may know the start from other peers and announce it. Each acknowledges the other's.
 void Handshake::agree_with_all(const wire::Hello& hello, base::TimePoint arrived)
 {
     if (!session_) {
@@ -191,7 +191,7 @@ bool Handshake::may_replace_start(base::TimePoint start, base::TimePoint arrived
     return !has_begun && has_come_often(start);
 }
 
-/// True if the remote has told this start `starts_needed` times in a row.
+/// True if the remote has announced this start `starts_needed` times in a row.
 bool Handshake::has_come_often(base::TimePoint start)
 {
     if (other_start_ != start) {

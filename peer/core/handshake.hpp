@@ -36,12 +36,12 @@ struct Session {
     bool joined_late = false;
 };
 
-/// Lets two peers find each other and agree on a start: hellos every 20 ms until both know it.
-/// The lower id sets the start one second after it learns that it was heard, and keeps saying so
-/// until that is acknowledged; the remote joins when it hears of it, if need be late. A peer
-/// that restarts meets one that is in session already and joins that session. Feed with on_hello(),
-/// drain with hello(), and read session() after either. Among more than two Others decides when
-/// to start, and every peer that knows the start tells it to those that it meets.
+/// Lets two peers find each other and agree on a start: hellos every 20 ms until both know it. The
+/// lower id sets the start one second after it learns that it was heard, and repeats the start
+/// until it is acknowledged. The remote joins when it hears of the start, even if that is late. A
+/// peer that restarts meets one that is in session already and joins that session. Feed with
+/// on_hello(), drain with hello(), and read session() after either. Among more than two Others
+/// decides when to start, and every peer that knows the start tells it to those that it meets.
 class Handshake {
 public:
     static constexpr base::Duration hello_every{std::chrono::milliseconds{20}};
@@ -88,9 +88,9 @@ public:
     /// The hello that is due, if one is. `heard`: the peers that this one hears, bit i for id i.
     [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now, std::uint32_t heard);
 
-    /// Takes over the start, seed and length that all have agreed on, and tells them to the
-    /// remote, which must have been met. One that is met `late` is told that it joins. Another
-    /// start than before is told until the remote tells it, too.
+    /// Takes over the start, seed and length that all have agreed on, and sends them to the remote,
+    /// which must have been met. A remote that is met `late` learns that it joins. A changed start
+    /// is repeated until the remote repeats it, too.
     void tell(const Session& agreed, bool late);
     /// Among more than two: the session that the remote is in, when it has told `starts_needed`
     /// times that this began earlier than the one known here, and it is not over. See `is_same()`.

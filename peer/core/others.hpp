@@ -23,10 +23,11 @@ struct Roster {
     std::size_t wait_for = 0;
 };
 
-/// The other peers of a session. Two agree on a start by their handshake. Among more the lowest id
-/// sets it, as soon as all that are waited for hear each other; everyone who knows it tells it to
-/// those that it meets, who join if it has begun. Where those that meet know two starts, because
-/// they began apart, the earlier one counts and the others join it.
+/// The other peers of a session. Two peers agree on a start by their handshake. Among more peers
+/// the lowest id sets the start, as soon as all that are waited for hear each other. Each peer that
+/// knows the start tells it to the peers that it meets, which join the session if it has begun. If
+/// peers that meet know two starts, because they began apart, the earlier one counts and the others
+/// join it.
 class Others {
 public:
     /// With more than two peers, the time after its last hello for which a peer counts as heard.
@@ -53,7 +54,8 @@ public:
 
     /// Begins a tick; returns the freshness of the newest state of all.
     double look(base::TimePoint now);
-    /// The one with the lowest id of those that are heard; where none is, of those that were.
+    /// The peer with the lowest id of those that are heard now. If none is, that of those heard
+    /// before.
     [[nodiscard]] const Remote& leader() const;
     /// True if what they do is known well enough for a hand to feel it: one of them is fresh, and
     /// so are all whose hands may be on the body.

@@ -32,7 +32,7 @@ void PathMeter::on_newest(const wire::State& state, base::TimePoint arrived, bas
     age_.add(arrived, (arrived - state.sent) - ahead);
 }
 
-/// `sent` by them, on their clock, which is `ahead` of ours.
+/// `sent` is on the other peer's clock, which is `ahead` of this peer's.
 void PathMeter::on_echo(const wire::Echo& echo, base::TimePoint sent, base::Duration ahead)
 {
     if (!echoed_) echoed_ = echo.of; // may be the echo of a hello from before the session

@@ -86,7 +86,7 @@ public:
 
     /// Ends the session: byes follow, then finished() holds.
     void leave(wire::ByeReason reason);
-    /// True if all byes are said: nothing more will come of this peer.
+    /// True if all byes are sent: this peer will send nothing more.
     [[nodiscard]] bool finished() const { return farewell_.is_finished(); }
 
     [[nodiscard]] const scene::World& world() const { return scene_.world(); }

@@ -48,8 +48,8 @@ public:
     /// States that were sent longer than this after a goodbye take it back: it was forged, or
     /// damaged. States that it overtook on its way do not count.
     static constexpr base::Duration goodbye_doubted_for{std::chrono::milliseconds{300}};
-    /// The number of states without a body, over at least a second, that is no accident: every 64th
-    /// state has the body.
+    /// This number of states without a body, over at least a second, means that states with bodies
+    /// are lost: one in 64 has them even at rest.
     static constexpr std::uint32_t states_without_body_max = 10 * body_every;
     static constexpr base::Duration body_missed_after{std::chrono::seconds{1}};
 
@@ -73,12 +73,12 @@ public:
         bool had_session = false; // there was a session before this hello
     };
     [[nodiscard]] Greeting on_hello(const wire::Hello& hello, base::TimePoint arrived);
-    /// True if its hello may be listened to: the one that is expected here.
+    /// True if a hello with this id is from the remote that is expected here.
     [[nodiscard]] bool is_expected(std::uint16_t id) const { return id_ == 0 || id == id_; }
 
     /// True if the number of a state can be right. The state must be plausible in itself.
     [[nodiscard]] bool can_be_numbered(const wire::State& state, base::TimePoint arrived) const;
-    /// True if it goes on although it has said goodbye; then the goodbye is forgotten.
+    /// True if the remote goes on after its goodbye. The goodbye is then forgotten.
     [[nodiscard]] bool takes_back_goodbye(const wire::State& state, base::TimePoint arrived);
     struct Heard {
         bool taken = false;       // the state counts; a stale one only with Stale::take

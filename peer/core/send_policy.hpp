@@ -48,7 +48,7 @@ struct SendPolicyFormat {
     [[nodiscard]] std::string describe() const;
 };
 
-/// Why a tick has a message, or none.
+/// The reason why a tick has a message, or has none.
 enum class SendCause : std::uint8_t {
     held_back,
     rate,
@@ -74,9 +74,9 @@ public:
 
     explicit SendGate(const SendPolicy& policy) : policy_{policy} {}
 
-    /// Why the state of this tick is due: held_back when it is not. `number`: of the tick, from 0
-    /// in the session. The state has the hand, its force and its contacts; what is due counts as
-    /// sent.
+    /// Returns why the state of this tick is due, or held_back when it is not. `number`: number of
+    /// the tick, from 0 in the session. The state has the hand, its force and its contacts. A state
+    /// that is due counts as sent.
     [[nodiscard]] SendCause judge(const wire::State& state, std::int64_t number);
 
 private:

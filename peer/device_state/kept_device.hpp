@@ -11,8 +11,8 @@ namespace hapnet::peer::device_state {
 
 /// The state of one real device in its file, $XDG_STATE_HOME/hapnet/device/NAME.json, or below
 /// ~/.local/state: read at the start, and written at once (mode 0600) whenever it changes. A file
-/// that cannot be read counts as none; one that cannot be written is said and leaves a session as
-/// it is.
+/// that cannot be read counts as missing. One that cannot be written is reported, and the session
+/// goes on.
 class KeptDevice {
 public:
     KeptDevice(const device::Identity& identity, std::string_view place);
@@ -21,7 +21,8 @@ public:
     [[nodiscard]] std::string_view why_untested() const;
     [[nodiscard]] double heat_at_start(base::Duration heat_time) const;
 
-    /// Motors are about to be used: until on_rest() their heat is not known, however this ends.
+    /// Call it before motors are used. Their heat is then unknown until on_rest(), also if the
+    /// program dies.
     void on_use();
     void on_rest(double heat);
     /// The device has passed a self-test, now.

@@ -164,9 +164,9 @@ bool has_firewire_card(const fs::path& root)
     });
 }
 
-/// As the loop of a peer has it, on a thread that ends.
 constexpr double year_2026_unix_s = 1'767'225'600.0;
 
+/// Measures the timing that the loop of a peer would have, on a thread of its own.
 Timing try_timing()
 {
     Timing timing;

@@ -42,7 +42,7 @@ Sealed::open(std::span<const std::byte> datagram, const secure::Place& from, bas
 }
 
 /// A key is for one peer and one run of it: no member of a circle introduces another one. States
-/// and goodbyes name the session, and the key has said it.
+/// and goodbyes need no check: they name the session, which belongs to the key.
 bool Sealed::is_of_its_key(std::span<const std::byte> message, std::uint32_t other_run) const
 {
     if (!wire::is_hello(message)) return true;

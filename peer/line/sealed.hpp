@@ -16,7 +16,7 @@
 
 namespace hapnet::peer::line {
 
-/// Messages go sealed, to where the other side was heard last. See Line, which it is a kind of.
+/// Seals messages and sends them to where the other side was heard last. This is one kind of Line.
 class Sealed {
 public:
     /// The number of events of one kind of trouble after which it is reported. A single one may be

@@ -56,8 +56,8 @@ void announce(const Supervised& supervised, const std::string& ready)
     if (!shortage.empty()) supervised.screen.put(fmt::format("hapnet-peer: {}\n", shortage));
 }
 
-/// The emergency stop: Enter at the terminal, or a client of the control socket. And a stop, of
-/// which only programs are told.
+/// The emergency stop: Enter at the terminal, or a client of the control socket. It also handles a
+/// stop, which is announced to programs only.
 class Stops {
 public:
     explicit Stops(const Supervised& supervised) : all_{supervised} {}

@@ -39,7 +39,7 @@ inline constexpr base::Duration text_patience{std::chrono::seconds{2}};
 /// servo throws, after the device has been told zero force.
 void supervise(const Supervised& supervised, const std::string& ready);
 
-/// Waits until what was said is written, or given up as above.
+/// Waits until the text is written, or given up as above.
 void wait_for_readers(const net::TextQueue& text, const net::StopSignal& stop);
 
 } // namespace hapnet::peer::loop

@@ -23,7 +23,7 @@ struct LoggedEvent {
 
 /// Returns the event's name in logs.
 [[nodiscard]] std::string_view name_of(Event event);
-/// The event of a device's news, without words yet.
+/// Returns the event of a device's news. Its `words` are still empty.
 [[nodiscard]] LoggedEvent event_of(const loop::TimedDeviceNews& timed);
 
 /// The line of an event. `start`: of the session, as far as it is known.

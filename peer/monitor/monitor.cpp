@@ -29,7 +29,7 @@ std::string words_on_waiting(const std::vector<std::uint16_t>& awaited, bool is_
                        awaited.size() == 1 ? "" : "s", fmt::join(awaited, ", "));
 }
 
-/// Words on the other one of two, as words on one of several.
+/// Turns words on the other peer of a pair into words on one of several peers.
 std::string with_name(std::string_view words, std::uint16_t about)
 {
     std::string text{words};
@@ -40,7 +40,7 @@ std::string with_name(std::string_view words, std::uint16_t about)
     return text;
 }
 
-/// The longest of them in milliseconds; on one machine it is a matter of microseconds.
+/// Returns the longest round trip in milliseconds. On one machine it takes only microseconds.
 std::string longest_of(const std::map<std::uint16_t, base::Duration>& round_trips)
 {
     base::Duration longest{0};
@@ -84,7 +84,7 @@ std::string_view describe(net::SendOutcome outcome)
     switch (outcome) {
     case net::SendOutcome::sent:
     case net::SendOutcome::buffer_full: // passes soon
-    // The other host has said it, or this one of an earlier datagram: no program listens there yet.
+    // The other host, or this one, has refused an earlier datagram: no program listens there yet.
     case net::SendOutcome::refused: return "";
     case net::SendOutcome::no_route: return "there is no route to it; is the network up?";
     case net::SendOutcome::too_big: return "the network takes no datagrams of this size";

@@ -86,9 +86,10 @@ public:
     }
     [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
 
-    /// Why the record is incomplete; null: its file has not refused.
+    /// Returns the error that cut off the record; null: its file has taken all rows so far.
     [[nodiscard]] std::exception_ptr record_failure() const;
-    /// True if the record has every row so far, or will have. After close(), once is_done().
+    /// True if the record has every row so far, or will have. After close() it is false until
+    /// is_done().
     [[nodiscard]] bool is_record_whole() const;
     /// Rows that found no room on their way to the record.
     [[nodiscard]] std::uint64_t rows_lost() const;

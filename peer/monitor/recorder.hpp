@@ -49,12 +49,12 @@ public:
     /// Orders a record of the rows since that time; gives its path. Never waits: the file appears,
     /// whole, soon after. The error says why there will be none. From one thread.
     [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
-    /// Why an ordered record could not be written; once.
+    /// Returns once why an ordered record could not be written.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
     /// After close(): whether nothing is left to do, as all is written or lost.
     [[nodiscard]] bool is_done() const;
-    /// Why the record ends early; null: the file has not refused.
+    /// Returns the error that cut off the record; null: the file has taken all rows so far.
     [[nodiscard]] std::exception_ptr failure() const;
     /// Rows that are missing in the record: they found no room in the queue, or the file refused.
     [[nodiscard]] std::uint64_t lost() const;

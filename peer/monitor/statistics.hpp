@@ -34,7 +34,7 @@ struct Run {
     std::uint64_t texts_lost = 0; // messages for a person that were not read in time
 };
 
-/// Which program it is.
+/// The program and its build.
 struct BuildReport {
     std::string_view program = "hapnet-peer";
     std::string_view version = base::version();

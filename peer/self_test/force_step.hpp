@@ -23,7 +23,7 @@ public:
     static constexpr base::Duration ramp{std::chrono::seconds{2}};
     static constexpr base::Duration plateau{std::chrono::seconds{1}};
     static constexpr base::Duration patience{std::chrono::seconds{60}};
-    /// By then a governor has faded out.
+    /// The time by which a governor has faded the force to zero.
     static constexpr base::Duration zero_after{std::chrono::milliseconds{100}};
 
     explicit ForceStep(DeadMan dead_man) : dead_man_{dead_man} {}

@@ -124,7 +124,7 @@ template <std::integral T>
 [[nodiscard]] std::optional<std::size_t> choice_from(const Leaf& leaf,
                                                      std::span<const std::string_view> names);
 
-/// Value kinds by type; the primary one knows nothing about the values.
+/// Value kinds by type; the primary template knows nothing about the values.
 template <typename T>
 struct Kind {
     static constexpr ValueKind kind{};

@@ -17,8 +17,8 @@ constexpr std::size_t columns_min = 40;
 constexpr std::size_t columns_max = 100; // longer lines are hard to read
 constexpr std::size_t names_width = 26;  // width of the left column
 
-/// Words one behind the other, on lines of at most `columns`. The first line goes on behind
-/// `column` characters that stand there already.
+/// Breaks words into lines of at most `columns`. The first line continues a line that already has
+/// `column` characters.
 std::string folded(std::string_view words, std::size_t column, std::size_t indent,
                    std::size_t columns)
 {

@@ -25,9 +25,9 @@ enum class SendOutcome : std::uint8_t { sent, buffer_full, no_route, too_big, re
                                    std::span<const std::byte> bytes, ErrorQueue* answers = nullptr);
 
 /// Sends many datagrams to one place with few system calls. Neighbours of one size (the last may be
-/// shorter) are handed to the kernel as one message that it cuts again (UDP_SEGMENT): only that
-/// makes loopback and most network cards faster, while a system call more or less hardly matters.
-/// The receiver gets the same datagrams. Never allocates after construction.
+/// shorter) are handed to the kernel as one message that it cuts again (UDP_SEGMENT): only this
+/// makes loopback and most network cards faster, while saving system calls hardly matters. The
+/// receiver gets the same datagrams. Never allocates after construction.
 class BatchSender {
 public:
     static constexpr std::size_t batch_max = 64; // datagrams per send(); segments per message

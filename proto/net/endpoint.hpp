@@ -61,8 +61,8 @@ struct HostPort {
 /// Parses an address to listen on: ":7001" and "7001" are ports of loopback.
 [[nodiscard]] base::Result<HostPort> parse_listen_address(std::string_view text);
 
-/// Looks up the addresses of a host that have the family asked for, without doublets, in the order
-/// in which the system would try them. See resolve().
+/// Looks up the addresses of a host that have the family asked for, without duplicates, in the
+/// order in which the system would try them. See resolve().
 [[nodiscard]] std::vector<Endpoint> resolve_all(const HostPort& where, int family = AF_UNSPEC);
 
 /// Looks up the first address of a host that has the family asked for (AF_UNSPEC: any). For a

@@ -7,8 +7,8 @@
 
 namespace hapnet::net {
 
-/// The line at the bottom of a terminal that is written again and again, among other text. Writes
-/// nothing itself: it gives the bytes that do it.
+/// The line at the bottom of a terminal that is written again and again, among other text. It
+/// writes nothing itself, but returns the bytes to be written.
 class TerminalLine {
 public:
     /// `descriptor`, which stays the caller's, is asked whether it is a terminal, and how wide.

@@ -91,7 +91,7 @@ void read_control(const cmsghdr& control, Label& label)
     }
 }
 
-/// CMSG_NXTHDR would be a call for each, of which there are several beside each message.
+/// Reads the control data of a message. CMSG_NXTHDR would cost a call for each of several items.
 Label label_of(const msghdr& header)
 {
     Label label;
@@ -105,8 +105,8 @@ Label label_of(const msghdr& header)
     return label;
 }
 
-/// Has the marks of what arrives told, and returns those of what is sent without any. A default of
-/// IPv6 that routers could change later is made fixed by that.
+/// Asks the kernel for the marks of arriving datagrams. Returns the marks of datagrams that are
+/// sent without any. This also fixes a default of IPv6 that routers could change later.
 base::IpMarks ask_for_marks(int descriptor, int family)
 {
     set_option(descriptor, IPPROTO_IP, IP_RECVTOS, 1); // also on an IPv6 socket that receives IPv4

@@ -18,7 +18,7 @@ namespace hapnet::secure {
 /// An address and a port as bytes that a shell fills in; a core only compares them.
 using Place = std::array<std::byte, 18>;
 
-/// Compared for every datagram: `==` would go byte by byte.
+/// Compares two places. It is called for every datagram, and `==` would compare byte by byte.
 [[nodiscard]] inline bool is_same(const Place& a, const Place& b)
 {
     return std::memcmp(a.data(), b.data(), a.size()) == 0;

@@ -40,7 +40,7 @@ class Packet:
     """UP or DOWN."""
     data: bytes
     number: int
-    """In its direction, from 0; a copy has its original's."""
+    """Number of the packet in its direction, from 0. A copy has the number of its original."""
     arrived: float
     due: float
     is_copy: bool
@@ -102,11 +102,11 @@ def _ns(seconds: float) -> int:
 
 
 class Link:
-    """Both ways of an emulated path. For one thread at a time.
+    """An emulated path in both directions. Use it from one thread at a time.
 
     `profile`: a profile as text, or the name of a preset. `folder`: where the files are that the
     profile names; None: it may name none. LinkRefused says what is wrong with it. Times are seconds
-    since the link began; one before that of the call before counts as that one."""
+    since the link began. A time before that of the last call counts as that time."""
 
     def __init__(self, profile: str, seed: int = 1, folder: Optional[str] = None) -> None:
         self._library = _loaded()
@@ -142,8 +142,8 @@ class Link:
             raise LinkRefused(error.value.decode())
 
     def push(self, direction: str, data: bytes, now: float) -> Optional[str]:
-        """Takes a packet that arrives at `now`. None: it will leave; otherwise why it is dropped,
-        such as "random_loss"."""
+        """Takes a packet that arrives at `now`. Returns the reason why it is dropped, such as
+        "random_loss"; None: it will leave."""
         cause: int = self._library.hapnet_link_push(self._open(), _WAYS.index(direction), data,
                                                     len(data), _ns(now))
         if cause < 0:

@@ -68,15 +68,15 @@ class Lifeline:
         self._reading, self._writing = os.pipe()
 
     def given(self, folder: str = "") -> Dict[str, Any]:
-        """Keyword arguments that hand the other end to subprocess.Popen. `folder`: what the program
-        removes at its end, when nobody is left here to do so."""
+        """Keyword arguments that hand the other end to subprocess.Popen. `folder`: the folder
+        that the program removes at its end if this process has ended before."""
         variables = dict(os.environ, HAPNET_LIFELINE=str(self._reading))
         if folder:
             variables["HAPNET_LIFELINE_FOLDER"] = folder
         return {"pass_fds": (self._reading,), "env": variables}
 
     def close(self) -> None:
-        """Lets go of it: whatever still runs at its other end stops."""
+        """Closes the pipe: programs that still hold its other end stop."""
         os.close(self._reading)
         os.close(self._writing)
 
@@ -122,7 +122,7 @@ class Daemon:
         self._err: List[str] = []
         self._threads: List[threading.Thread] = []
         self.ready: Dict[str, str] = {}
-        """What its line "ready" said, by its keys."""
+        """The keys and values of its line "ready"."""
         self.control_path = ""
         """Where its control socket is while it runs, for other clients."""
 
@@ -152,9 +152,9 @@ class Daemon:
         return self
 
     def stop(self, within: float = 15.0) -> None:
-        """Ends it as SIGTERM does: files are written, motors at zero force. Raises ProgramFailed
-        when it ended with another code than 0, or not within so many seconds (it is killed
-        then)."""
+        """Ends the program by SIGTERM: it writes its files and sets motors to zero force. Raises
+        ProgramFailed if it ends with another code than 0, or not `within` these seconds: then it
+        is killed."""
         if self._process is None:
             return
         if self._process.poll() is None:
@@ -175,7 +175,8 @@ class Daemon:
             raise ProgramFailed(f"{self.program} ended with {code}: {self.said()}", code)
 
     def kill(self) -> None:
-        """Ends it at once. A device may keep its last force: for simulated ones."""
+        """Kills the program at once. Use it with simulated devices only: a real one may keep its
+        last force."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
@@ -201,7 +202,7 @@ class Daemon:
         return self._control
 
     def said(self) -> str:
-        """What it has said on stderr so far."""
+        """Its lines on stderr so far."""
         return "\n".join(self._err)
 
     def is_running(self) -> bool:

@@ -53,7 +53,7 @@ class Table:
         return [dict(zip(names, row)) for row in self.rows]
 
     def flat(self) -> List[Dict[str, Value]]:
-        """The same with a vector's elements apart: hip_x, hip_y, hip_z, orientation_w."""
+        """Each row as a dictionary, with a key for each element of a vector, such as hip_x."""
         return [
             {name: value for key, one in row.items() for name, value in _elements(key, one)}
             for row in self.dicts()
@@ -87,8 +87,8 @@ class Record:
     """The last row was not written to its end."""
 
     def time_s(self) -> List[float]:
-        """Of each tick, seconds since the agreed start of the last session, as in the CSV of
-        `hapnet-lab export`; without a session since the first tick."""
+        """The time of each tick, in seconds since the agreed start of the last session, as in the
+        CSV of `hapnet-lab export`. Without a session it counts from the first tick."""
         due, late = self.ticks.column("due"), self.ticks.column("late")
         starts = self.sessions.column("start")
         woke = [a + b for a, b in zip(due, late)]
@@ -104,7 +104,7 @@ def _elements(key: str, value: Value) -> Sequence[Tuple[str, Value]]:
 
 
 class _Rows:
-    """How the rows of one kind are read."""
+    """Reads the rows of one kind."""
 
     def __init__(self, schema: Dict[str, Any], row_bytes: int) -> None:
         self.row_bytes = row_bytes

@@ -27,8 +27,8 @@ def _cell(text: Optional[str]) -> Cell:
 
 
 def read_csv(path: str) -> List[Row]:
-    """The rows of a CSV file of Hapnet's: by the names of the header, which have the units. Numbers
-    come as int or float, empty cells as None."""
+    """The rows of a CSV file of Hapnet, as dictionaries by the names of its header, which have the
+    units. Numbers are int or float, empty cells None."""
     with open(path, encoding="utf-8", newline="") as file:
         return [{key: _cell(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
@@ -41,7 +41,7 @@ def to_frame(rows: List[Row]) -> Any:
 
 
 def read_manifest(folder: str) -> Dict[str, Any]:
-    """The manifest of a folder of results: what was run, with what, on what, and whether it is
+    """The manifest of a folder of results: its experiment, version, machine, and whether it is
     valid."""
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
         manifest: Dict[str, Any] = json.load(file)
@@ -49,7 +49,7 @@ def read_manifest(folder: str) -> Dict[str, Any]:
 
 
 def write_whole(path: str, text: str) -> None:
-    """Replaces a file by one with this text: whoever reads it finds the old one or the new one."""
+    """Replaces a file by one with this text. A reader finds either the old file or the new one."""
     beside = f"{path}.new"
     with open(beside, "w", encoding="utf-8") as file:
         file.write(text)

@@ -33,8 +33,8 @@ class Group(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits:
-    """What is allowed, the limits themselves included, in the unit of the metric. None: no limit.
-    Raises CannotJudge for one that is not finite, and where nothing lies between them."""
+    """The allowed range, limits included, in the unit of the metric. None: no limit. Raises
+    CannotJudge if a limit is not finite, or if the lower limit is above the upper one."""
 
     at_most: Optional[float] = None
     at_least: Optional[float] = None
@@ -59,8 +59,9 @@ class Limits:
         return " and ".join(f"{sign} {one}" for sign, one in both if one is not None)
 
     def verdict(self, low: Optional[float], high: Optional[float]) -> Optional[str]:
-        """Of the interval from `low` to `high`. GOOD: all of it is allowed. NOT_GOOD: all of it is
-        beyond one limit. Else, or without an interval, UNDECIDED. None: there is no limit."""
+        """The verdict on the interval from `low` to `high`. GOOD: all of it is allowed. NOT_GOOD:
+        all of it is beyond one limit. Else, or without an interval, UNDECIDED. None: there is no
+        limit."""
         if self.at_most is None and self.at_least is None:
             return None
         if low is None or high is None:

@@ -9,7 +9,7 @@ namespace hapnet::scene {
 
 namespace {
 
-// Farther out bodies share the cells of the border: slow there, and still right.
+// Bodies that lie farther out share the cells of the border, which is slow but still correct.
 constexpr double cells_max = 1 << 20;
 constexpr unsigned cell_bits = 21;
 // The edge of a cell, in edges of the median box, so that a box that reaches far ahead still lies

@@ -250,7 +250,8 @@ private:
             const double size = length(across);
             if (size > along_sine) consider(across / size, 3);
         }
-        // The deepest place: an end, or, where all are as deep, the middle of what is inside.
+        // The deepest place is an end of the line. If all places are equally deep, it is the middle
+        // of the part inside.
         found.distance = -least;
         found.normal = box_.axes * best;
         const double into = glm::dot(best, axis_);

@@ -134,7 +134,7 @@ void find_spring_events(const BoxMotion& box, const Springs& springs, Kind kind,
     }
 }
 
-/// `side` times how far the centre is from a face.
+/// Returns the distance of the box's centre from a face, times `side`, as a quantity to watch.
 WatchedQuantity watch_gap(const BoxMotion& box, std::size_t axis, double side, double face)
 {
     WatchedQuantity watch{.level = side * (box.position[axis] - face)};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What of continuous collision is about bodies that stick together.
+// The part of continuous collision that is about bodies that stick together.
 #include "scene/rigid/continuous.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace hapnet::scene {
 
-/// Calls visit(flyer) for one that is stuck and all that stick to it.
+/// Calls visit(flyer) for a flyer that is stuck, and for all flyers that stick to it.
 template <typename Visit>
 void ContinuousCollision::for_stuck(FlyerIndex index, Visit visit)
 {
@@ -20,7 +20,8 @@ void ContinuousCollision::for_stuck(FlyerIndex index, Visit visit)
     } while (i != index);
 }
 
-/// Two touch and stick, or one sticks at a wall. When looks run short, all that surely meet do.
+/// Makes two bodies that touch stick together, or one body stick to a wall. When looks run short,
+/// all movable bodies that are sure to meet stick together.
 void ContinuousCollision::stick(const Surroundings& around, Meeting& meeting)
 {
     const auto is_wall = [&](const Meeting& its) {
@@ -41,7 +42,8 @@ void ContinuousCollision::stick(const Surroundings& around, Meeting& meeting)
     if (is_wall(meeting)) stick_to_wall(around, index, meeting);
 }
 
-/// Two and all that sticks to either are to go on as one; or one on its own.
+/// Joins two bodies, and all that stick to either of them, into one cluster. If both are the same
+/// body, it becomes a cluster of its own.
 void ContinuousCollision::link(const Surroundings& around, FlyerIndex a, FlyerIndex b)
 {
     for (const FlyerIndex index : {a, b}) {

@@ -31,7 +31,7 @@ void rotate_uniformly(Bodies& bodies, SlotRange range, double tick);
 /// Turns one body of any kind by one tick in which nothing touches it.
 void rotate_freely(Bodies& bodies, Slot slot, double tick);
 
-/// Gravity on what of a body is not locked.
+/// The acceleration by gravity along the axes in which the body is not locked.
 [[nodiscard]] glm::dvec3 gravity_on(const BodyProperties& properties, const glm::dvec3& gravity);
 
 /// Moves bodies that nothing touches, whatever their kinds: many at once when all movable bodies of

@@ -64,7 +64,8 @@ public:
 private:
     static constexpr BodyId no_body = ~BodyId{0};
 
-    /// The one of a pair that sleeps while the other is awake and not at rest; or no_body.
+    /// Returns the body of a pair that sleeps while the other is awake and not at rest; else
+    /// no_body.
     [[nodiscard]] BodyId sleeper_disturbed_by(const Bodies& bodies, const Pair& pair) const;
     template <BroadPhase broad_phase>
     void wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);

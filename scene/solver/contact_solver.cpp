@@ -307,7 +307,7 @@ HeldIsland::Task ContactSolver::held_task(const Task& task, Island island)
     return {blocks_.all(), island, responses_.all(), task.motions};
 }
 
-/// True if an island stands as far as its contacts know.
+/// True if the equations of HeldIsland can be set up for this island.
 bool ContactSolver::may_hold(const Task& task, Island island)
 {
     return task.mode == Mode::contacts && held_.begin(held_task(task, island));

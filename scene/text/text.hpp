@@ -32,8 +32,8 @@ struct BuiltInScene {
 /// All built-in scenes, by name.
 [[nodiscard]] std::span<const BuiltInScene> built_in_scenes();
 
-/// Reads the built-in scene of that name, or else the file that `open` gives the text of: what
-/// holds a '/' or ends in ".toml" is a file. The error names the file and the line, or the names
+/// Reads the built-in scene of that name, or else the file whose text `open` returns. A name with a
+/// '/', or one that ends in ".toml", is a file. The error names the file and the line, or the names
 /// that there are.
 [[nodiscard]] base::Result<Description> load_scene(const std::string& file_or_name,
                                                    const base::OpenFile& open);

@@ -11,7 +11,8 @@
 
 namespace hapnet::web {
 
-// Members of what pages and daemons send, which may lack them or have them of another kind.
+// Readers of members of the JSON that pages and daemons send. A member may be missing or of another
+// type.
 
 /// Returns a text member; "" if there is none.
 [[nodiscard]] inline std::string text_member(const nlohmann::ordered_json& json, const char* key)

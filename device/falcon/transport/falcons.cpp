@@ -227,7 +227,7 @@ private:
     int result_ = LIBUSB_SUCCESS;
 };
 
-/// The one with this serial or port; for "" the first that is usable.
+/// Returns the Falcon with this serial number or at this port; for "" the first usable one.
 Opened<Candidate> choose(libusb_context* context, const std::string& serial)
 {
     std::optional<DeviceError> first_trouble;

@@ -94,7 +94,7 @@ void UsbLink::send_now(const Packet& packet) noexcept
 
 void UsbLink::interrupt(const Packet& packet) noexcept
 {
-    // The transfer before may have ended long ago, without any look at its events.
+    // The previous transfer may have ended long ago, with its events not handled yet.
     if (interrupts_) handle_events(0);
     if (interrupts_.exchange(true)) return;
     put(packet, urgent_buffer_);
@@ -107,7 +107,7 @@ std::span<const std::byte> UsbLink::receive(Wait wait) noexcept
     collect();
     handle_events(0);
     collect();
-    // The first wait may end with no more than our own packet having left: then one more.
+    // The first wait may end because our own packet has left. Then wait once more.
     for (int round = 0; round < 2 && wait == Wait::briefly && inbox_size_ == 0; ++round) {
         const bool was_sending = sends_;
         handle_events(brief_wait_ms);
@@ -123,7 +123,7 @@ void UsbLink::handle_events(int milliseconds_max) noexcept
     libusb_handle_events_timeout_completed(usb_.context.get(), &most, nullptr);
 }
 
-/// Takes what has been heard, and goes on listening.
+/// Takes the bytes that have arrived, and starts the next transfer.
 void UsbLink::collect() noexcept
 {
     if (listening_ == Listening::completed) {

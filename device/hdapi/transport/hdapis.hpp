@@ -14,7 +14,7 @@ namespace hapnet::device::hdapi {
 /// library is loaded to see whether it can be, but no device is touched.
 [[nodiscard]] std::vector<Found> find_hdapis(const std::string& library);
 
-/// Opens the device of this name; "": the default one, by all the names that it goes by.
+/// Opens the device of this name; "": the default device, under one of its usual names.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_hdapi(const std::string& name,
                                                          const std::string& library);
 

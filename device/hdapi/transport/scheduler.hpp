@@ -53,8 +53,8 @@ private:
     unsigned long callback_ = 0;
 };
 
-/// The process's one scheduler of the library in `file` ("": by its usual names), loaded when it is
-/// asked for first.
+/// Returns the process's one scheduler of the library in `file`; "" stands for the library's usual
+/// names. The first call loads the library.
 [[nodiscard]] Opened<Scheduler*> scheduler_of(const std::string& file);
 
 } // namespace hapnet::device::hdapi

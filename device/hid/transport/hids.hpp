@@ -17,7 +17,7 @@ namespace hapnet::device::hid {
 /// serial number the node's name stands in for it, such as "hidraw0".
 [[nodiscard]] std::vector<Found> find_hids(const Options& options);
 
-/// Opens the one with this serial number or node name; "": the first that is usable. A PID device
+/// Opens the device with this serial number or node name; "": the first usable device. A PID device
 /// is read only where options.force_full_n is missing; its note says so.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_hid(const std::string& serial,
                                                        const Options& options);

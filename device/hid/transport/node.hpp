@@ -16,7 +16,7 @@ namespace hapnet::device::hid {
 /// project use a lock on it.
 class Claim {
 public:
-    /// Or why not: no permission, in use, gone.
+    /// Returns the claim, or the reason why there is none: no permission, in use, gone.
     [[nodiscard]] static Opened<Claim> take(const std::string& path);
 
     ~Claim();

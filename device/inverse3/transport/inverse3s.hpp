@@ -11,8 +11,8 @@
 
 namespace hapnet::device::inverse3 {
 
-/// The devices that the service on this port of this machine lists when it is connected to. No
-/// command is sent. Where nothing listens, or something else does: none.
+/// Returns the devices that the service on this port of this machine lists after a connection. No
+/// command is sent. Returns none where no program listens, or another than the service.
 [[nodiscard]] std::vector<Found> find_inverse3s(std::uint16_t port);
 
 /// Opens the device with this identity; "": the first one.

@@ -49,7 +49,7 @@ public:
 
     [[nodiscard]] const JointPlant& plant() const { return plant_; }
 
-    /// A longer gap between reads is not lived through.
+    /// The longest time between two reads that is simulated. A longer one is skipped.
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:

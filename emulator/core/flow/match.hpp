@@ -76,7 +76,7 @@ struct NetFormat {
     [[nodiscard]] std::string describe() const { return "a network such as 10.0.0.0/8"; }
 };
 
-/// The packets that belong to a flow: those that meet all that is written.
+/// The packets that belong to a flow: those that meet every condition that is set.
 struct Match {
     std::optional<std::uint16_t> protocol{}; // PacketFacts::arp or a number of IANA
     std::optional<NumberRange> port{};

@@ -206,7 +206,7 @@ Profile joined_of_kind(std::span<const NamedProfile> profiles)
     return all;
 }
 
-/// Adds what the paths of one flow have.
+/// Adds the conditions and the timeline of one flow's paths.
 void add_flow(Profile& all, const Flow& flow, const Profile& own)
 {
     const auto name = flow_path("", flow.name);

@@ -49,7 +49,7 @@ struct Profile {
     friend bool operator==(const Profile&, const Profile&) = default;
 };
 
-/// A profile that says what something else said, and a sentence on each thing that it cannot do.
+/// A profile translated from another notation, and a sentence on each part that it cannot express.
 struct TranslatedProfile {
     Profile profile;
     std::vector<std::string> warnings;

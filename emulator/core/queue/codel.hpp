@@ -47,7 +47,7 @@ public:
         return QueueVerdict::mark;
     }
 
-    /// The one before was dropped, and there is none behind it.
+    /// Call it when the last datagram was dropped and the queue is empty.
     void on_empty(base::TimePoint now)
     {
         first_above_.reset();

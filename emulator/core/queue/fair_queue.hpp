@@ -40,7 +40,7 @@ public:
     /// Ensures that it is not empty.
     [[nodiscard]] std::vector<Queued> take_from_longest();
 
-    /// Takes out all, in order of arrival.
+    /// Takes out all datagrams, in order of arrival.
     [[nodiscard]] std::vector<Queued> take_all();
 
     [[nodiscard]] std::size_t size() const { return size_; }

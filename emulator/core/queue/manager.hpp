@@ -27,7 +27,7 @@ public:
 
     [[nodiscard]] const QueueControl& control() const { return control_; }
 
-    /// True if it may drop what a bound in bytes lets pass.
+    /// True if a law is set. It may drop datagrams for which the queue has room.
     [[nodiscard]] bool is_on() const { return control_ != QueueControl{}; }
 
     /// Judges a datagram that arrives and for which there is room.

@@ -43,7 +43,8 @@ public:
                                     : base::Result<void>{};
     }
 
-    /// As many lost datagrams behind the first value. False: there is no room for them.
+    /// Adds `count` lost datagrams, unless no value has come yet. Returns false if there is no room
+    /// for them.
     [[nodiscard]] bool add_lost(std::size_t count)
     {
         if (rows_.values.empty()) return true;

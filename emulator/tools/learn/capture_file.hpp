@@ -63,10 +63,10 @@ inline constexpr std::size_t captured_packets_max = 2'000'000;
 [[nodiscard]] bool is_capture(std::string_view bytes);
 
 /// Reads pcap, with times in microseconds or nanoseconds, or pcapng, of either byte order, whose
-/// interfaces are Ethernet (with VLAN tags), raw IP, Linux cooked (1 and 2) or loopback. A last
-/// packet that is cut off ends it and is told. The formats: draft-ietf-opsawg-pcap,
-/// draft-ietf-opsawg-pcapng. libpcap is not used: it reads files, not bytes, and does not tell the
-/// interfaces of a pcapng apart. Errors name the packet.
+/// interfaces are Ethernet (with VLAN tags), raw IP, Linux cooked (1 and 2) or loopback. A packet
+/// that is cut off ends the capture; Capture::cut_off_in has its number. The formats:
+/// draft-ietf-opsawg-pcap, draft-ietf-opsawg-pcapng. libpcap is not used: it reads files, not
+/// bytes, and does not tell the interfaces of a pcapng apart. Errors name the packet.
 [[nodiscard]] base::Result<Capture> read_capture(std::string_view text);
 
 } // namespace hapnet::emulator::tools

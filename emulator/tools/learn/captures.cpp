@@ -232,7 +232,8 @@ public:
         }
     }
 
-    /// The one with the most datagrams that both ends have seen, there and back together.
+    /// Returns the conversation with the most datagrams that both ends have seen, both ways
+    /// together.
     [[nodiscard]] Conversation busiest() const
     {
         Conversation busiest;
@@ -283,8 +284,9 @@ private:
         return most == counts.end() ? Packets{} : packets_of(b_, most->first);
     }
 
-    /// `way` as it is called at a. Which end has sent it, the order of the two stamps tells; with
-    /// two clocks it may be the other way round, which is mended when both ways are known.
+    /// Adds one way to the measurement. `way` has the addresses seen at a. The order of the two
+    /// stamps shows which end has sent it. Two clocks can reverse this order, which sends_from_a()
+    /// corrects if both ways are known.
     void add_way(const PacketFlow& way, Measurement& measurement) const
     {
         const Packets at_a = packets_of(a_, way);

@@ -24,7 +24,7 @@ struct DelayModel {
 
 /// The models found for the delays of a direction.
 struct DelayFit {
-    std::vector<DelayModel> models{};  // the nearest first; one, constant, if they do not vary
+    std::vector<DelayModel> models{};  // nearest first; only a constant if delays do not vary
     double correlation = 0.0;          // correlation of neighbours' normal scores
     base::Duration correlation_time{}; // 0: independent, or the spacing is not known
     std::size_t independent = 0;       // delays that were far enough apart for the test

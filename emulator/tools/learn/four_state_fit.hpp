@@ -19,10 +19,10 @@ struct FourStateFit {
 
 /// Fits Salsano's four states (FourState) by expectation and maximization. As a run of arrivals is
 /// wholly in the gap or wholly within a burst, and a run of losses wholly isolated or in a burst,
-/// the chain is summed run by run. Several starts tell bursts by arrivals of fewer than 4, 16 or 64
-/// in a row (16 is that of RFC 3611, section 4.7.2); the most likely one is followed to its end. At
-/// most the first 20 000 runs are fitted to. nullopt: what was found makes no law, as when all
-/// losses are alone.
+/// the likelihood is computed run by run. The fit starts several times: fewer than 4, 16 or 64
+/// arrivals in a row count as within a burst (RFC 3611, section 4.7.2, has 16). The most likely
+/// start is iterated to its end. At most the first 20 000 runs are used. nullopt: the result is no
+/// law, for example when every loss is isolated.
 [[nodiscard]] std::optional<FourStateFit> fit_four_states(const std::vector<LossRun>& all);
 
 /// The law with these steps: the inverse of FourState::steps(), with rounded numbers.

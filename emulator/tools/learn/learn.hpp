@@ -92,12 +92,13 @@ struct LearnSettings {
 };
 
 /// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law of
-/// delays is rejected when a right one would look so one time in a thousand; if all are, the
-/// nearest is taken, and a remark says so. Where the laws of the first half do not give the delays
-/// of that half (see is_near), regimes take their place, in the number with the least BIC there.
-/// Where those do not either, the measured values do: drawn, or replayed if their correlation
-/// requires it. The likeness of the choice to the unseen second half is reported. Then all rows are
-/// learned in the chosen form. The error: nothing arrived, or a table cannot be read.
+/// delays is rejected if its own delays would look like these one time in a thousand. If all laws
+/// are rejected, the nearest is taken, and a remark says so. If the laws of the first half do not
+/// reproduce the delays of that half (see is_near), regimes replace them; their number is the one
+/// with the least BIC there. If regimes do not reproduce them either, the measured values replace
+/// them: drawn, or replayed if their correlation requires it. The likeness of the choice to the
+/// unseen second half is reported. Then all rows are learned in the chosen form. The error: nothing
+/// arrived, or a table cannot be read.
 [[nodiscard]] base::Result<Lesson> learn(const Measurement& measurement,
                                          const LearnSettings& settings = {});
 

@@ -112,7 +112,8 @@ base::Result<Measurement> read_captures(std::span<const MeasuredFile* const> fil
         fmt::format("{}{}: {}", files.front()->name, second, measured.error().message));
 }
 
-/// A text that begins with words is no table, nor one of the others.
+/// Returns why a text is refused. If it begins with words, it is in no known format, and the error
+/// lists the formats that can be read.
 tl::unexpected<base::Error> refusal_of(std::string_view text, const base::Error& error)
 {
     base::LineReader lines{text};

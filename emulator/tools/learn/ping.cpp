@@ -151,7 +151,7 @@ Told told_by_fping(std::string_view rest)
     return told;
 }
 
-/// `15.0 - 14.6 14.6 -`: all answers of a host, as fping -C tells them at its end.
+/// Reads `15.0 - 14.6 14.6 -`: all answers of a host, as fping -C prints them at its end.
 std::optional<std::vector<std::optional<double>>> told_in_one_line(std::string_view rest)
 {
     std::vector<std::optional<double>> times;

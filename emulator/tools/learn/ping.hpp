@@ -12,7 +12,7 @@ namespace hapnet::emulator::tools {
 inline constexpr std::string_view pings_that_are_read =
     "ping of Linux (iputils, BusyBox), BSD, macOS and Windows, and fping";
 
-/// True if a text has a line in which one of those programs tells of an answer.
+/// True if a text has a line in which one of those programs reports an answer.
 [[nodiscard]] bool is_ping(std::string_view text);
 
 /// Reads the output of one of those programs, in any language: the programs translate words, but

@@ -30,7 +30,7 @@ LossTally tally_of(std::span<const std::uint8_t> lost, std::size_t stride = 1)
     return tally;
 }
 
-/// Every how many runs the lengths are independent.
+/// Returns the stride at which the lengths of runs are independent.
 std::size_t stride_of(const RunLengths& runs)
 {
     constexpr double forgotten = 1e-3;

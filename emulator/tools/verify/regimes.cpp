@@ -136,8 +136,8 @@ std::vector<Fate> thinned(std::span<const Fate> fates, std::size_t regime, std::
     return own;
 }
 
-/// Independent losses are tested as anywhere. Of other laws the shares and the steps of their
-/// chains: runs end where the regime does.
+/// Independent losses are tested as outside of regimes. For other laws only the shares and the
+/// steps of their chains are tested, because runs end where the regime ends.
 Results verify_losses_within(const std::vector<LossLaw>& laws, std::span<const Fate> fates,
                              std::size_t regime, std::optional<base::Duration> spacing,
                              double alpha)

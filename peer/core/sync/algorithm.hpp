@@ -58,9 +58,9 @@ void prepare(Algorithm& algorithm, std::size_t others, const scene::World& world
 /// True if it can be played: the file of one that is no part of the program has been loaded.
 [[nodiscard]] bool is_loaded(const Algorithm& algorithm);
 
-/// Refuses bodies that the algorithm cannot play; the error says what it cannot. Bodies that turn,
-/// and several, are for remote-proxy. They are also for base, if only those of its readings of the
-/// paper differ from the defaults that hold for such bodies, too.
+/// Refuses bodies that the algorithm cannot play; the error says why. Only remote-proxy and base
+/// play several bodies, or bodies that turn. For base, only those options may then differ from
+/// their defaults that also apply to such bodies.
 [[nodiscard]] base::Result<void> check_bodies_of(const Algorithm& algorithm,
                                                  std::span<const SharedBody> bodies);
 /// Refuses hands of the scene that the algorithm cannot play. With dry friction, which comes from

@@ -12,8 +12,8 @@
 
 namespace hapnet::peer {
 
-// The readings that the paper's pseudo-code leaves open, as far as they are the algorithm's own.
-// The first of each is the default. docs/design/algorithms.md says why.
+// The questions that the paper's pseudo-code leaves open, as far as they concern the algorithm
+// itself. The first answer of each is the default. docs/design/algorithms.md says why.
 
 /// The sign of a displacement: as it moves the body on, or as printed, which moves it back.
 enum class DisplacementSign : std::uint8_t { current_minus_previous, previous_minus_current };

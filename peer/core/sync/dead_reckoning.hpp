@@ -112,7 +112,7 @@ public:
     [[nodiscard]] base::Duration horizon() const;
 
 private:
-    /// A place that a message told, and when.
+    /// A position from a message, with the times of that message.
     struct Fix {
         base::Position place;
         base::TimePoint arrived;

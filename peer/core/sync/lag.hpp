@@ -94,7 +94,7 @@ private:
     std::optional<std::int64_t> first_; // session number of this peer's first tick
     bool has_begun_ = false;
     RestAgreement rest_;
-    base::Displacement way_a_tick_; // step of a tick toward where the other copy rests
+    base::Displacement way_a_tick_; // step in each tick toward the resting other copy
     std::int64_t way_ticks_ = 0;    // ticks left until the body is there
 };
 

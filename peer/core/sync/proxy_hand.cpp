@@ -140,8 +140,8 @@ void ProxyHand::forget()
     trust_ = 1.0;
 }
 
-/// Puts the proxy as deep into the body as the hand is over there, also where the body is turned
-/// differently there, and with the body's motion there.
+/// Puts the proxy where the hand is relative to the other peer's copy of the body, turned by the
+/// difference between both orientations. The proxy moves with this peer's copy of the body.
 void ProxyHand::enter(const View& view)
 {
     is_there_ = true;

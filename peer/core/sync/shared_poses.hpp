@@ -60,7 +60,7 @@ public:
     /// The peers whose hands moved a body in the last tick, directly or by way of other bodies.
     enum class Mover : std::uint8_t { none, own, others };
     [[nodiscard]] Mover mover(std::size_t body) const { return movers_[body]; }
-    /// The one of the others with the lowest id whose hand moves a body; nullptr: none does.
+    /// The other peer with the lowest id whose hand moves this body; nullptr: no other hand does.
     [[nodiscard]] const Toucher* mover_among(const Touchers& touchers, std::size_t body) const;
     /// The peer whose copy of a body counted in the last tick, as this peer sees it: its own while
     /// its hand moves it, that of the lowest other while only others do, and else its owner's

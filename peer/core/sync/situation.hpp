@@ -14,8 +14,8 @@ namespace hapnet::peer {
 
 class SharedPoses;
 
-/// This peer's hand among those of its copy of the scene. The remote's is none of them: it is
-/// there by its force.
+/// The index of this peer's hand in its copy of the scene. Most algorithms represent other hands
+/// only by their forces: see has_hands_of_others().
 inline constexpr std::uint32_t own_hand = 0;
 
 /// The remote's clock as far as it is known. It is worked out when it is asked for, which most

@@ -50,8 +50,8 @@ class Answers:
     Reading it plays the plan again, so that `plan` is at the first trial without an answer."""
 
     def __init__(self, design: Design, participant: int, out: str, head: dict[str, Any]) -> None:
-        """`head`: what the first line of a new file says beside design and participant; of a file
-        that is there already it has to say the same. Raises AnswersError and OSError."""
+        """`head`: the keys of a new file's first line besides design and participant. The first
+        line of an existing file must have the same. Raises AnswersError and OSError."""
         self.folder = folder_of(out, participant)
         self.plan = Plan(design, participant)
         self.done: list[Answer] = []

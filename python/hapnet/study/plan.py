@@ -27,13 +27,13 @@ class Trial:
     block: int
     """From 1 on."""
     level: float
-    """Of the factor; the reference in a catch trial."""
+    """Level of the factor; the reference in a catch trial."""
     is_catch: bool
     staircase: Optional[int]
-    """Which one of the design, from 1 on; None for constant stimuli and catch trials."""
+    """Number of the staircase in the design, from 1; None for constant stimuli and catch trials."""
     worse: Optional[int]
-    """Which interval has the level, 1 or 2; None where there is one interval. In a catch trial both
-    are the reference, and `worse` says nothing."""
+    """Interval with the level, 1 or 2; None if there is one interval. In a catch trial both are the
+    reference, and `worse` has no meaning."""
 
 
 def williams(levels: int) -> list[list[int]]:
@@ -48,8 +48,8 @@ def williams(levels: int) -> list[list[int]]:
 
 
 class Plan:
-    """The trials of a participant. next() gives the trial that is due, again and again until
-    take() has its answer; None: all are done."""
+    """The trials of a participant. next() returns the same trial until take() has its answer; None:
+    all trials are done."""
 
     def __init__(self, design: Design, participant: int) -> None:
         self._design, self._participant = design, participant

@@ -28,7 +28,7 @@ class EmergencyStop(Exception):
 
 @dataclass
 class Played:
-    """What a trial left."""
+    """The results of a trial that was played."""
 
     records: list[str] = field(default_factory=list)
     """Names of files, in the participant's folder."""
@@ -45,8 +45,8 @@ def levels_of(design: Design, trial: Trial) -> list[float]:
 
 
 def verify(design: Design) -> None:
-    """Has the programs judge what of a design is theirs. Raises DesignError, which names the key,
-    and ProgramFailed where a program is missing."""
+    """Has the programs check the settings of a design that they use. Raises DesignError, which
+    names the key, and ProgramFailed if a program is missing."""
     settings = [f"--set={key}={value}" for key, value in design.conditions]
     factor = f"--set={design.factor}={design.level_text(design.highest)}"
     for key, program, words in (
