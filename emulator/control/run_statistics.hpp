@@ -128,8 +128,9 @@ constexpr auto fields_of(base::Tag<ClientReport>)
     return base::fields(
         "client", base::member("client", &C::number, "The number n of its streams."),
         base::member("name", &C::name, "The name of its path."),
-        base::member("address", &C::address), base::part(&C::course), base::member("up", &C::up),
-        base::member("down", &C::down),
+        base::member("address", &C::address), base::part(&C::course),
+        base::member("up", &C::up, "From the client."),
+        base::member("down", &C::down, "To the client."),
         base::member("flows", &C::flows, "In a run with flows: see there.").left_out_if_none());
 }
 

@@ -149,7 +149,7 @@ constexpr auto fields_of(base::Tag<PredictionReport>)
         base::member("packets", &P::packets, "How many were played each way."),
         base::member("bytes", &P::bytes, "Payload of each."),
         base::member("sealed", &P::is_sealed, "Whether damaged ones count as lost."),
-        base::member("up", &P::up), base::member("down", &P::down));
+        base::member("up", &P::up, "From A to B."), base::member("down", &P::down, "From B to A."));
 }
 
 } // namespace hapnet::emulator::tools
