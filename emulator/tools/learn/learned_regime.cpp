@@ -13,8 +13,6 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr double z = 1.959964; // of a normal distribution, 95 %
-
 /// The delays that arrived, in ms.
 std::vector<double> delays_ms(const MeasuredWay& own)
 {
@@ -42,7 +40,7 @@ LearnedRegime learned_regime(const Regime& regime, const RegimeFit& fit, const M
                              bool with_losses)
 {
     const double stay = base::to_seconds(regime.stay);
-    const double factor = std::exp(z / std::sqrt(fit.exits));
+    const double factor = std::exp(standard_errors_95 / std::sqrt(fit.exits));
     LearnedRegime found{.name = regime.name,
                         .stays = fit.exits,
                         .stay_s = {stay, stay / factor, stay * factor},
@@ -73,8 +71,10 @@ LearnedRegime learned_regime(const Regime& regime, const RegimeFit& fit, const M
     const double excess =
         variance > 0.0 ? std::max(fourth / (variance * variance) - 1.0, 0.0) : 0.0;
     const double sd_error = 0.5 * sd * std::sqrt(excess / n);
-    found.delay_ms = {mean, mean - z * mean_error, mean + z * mean_error};
-    found.delay_sd_ms = {sd, std::max(sd - z * sd_error, 0.0), sd + z * sd_error};
+    const double mean_half = standard_errors_95 * mean_error;
+    const double sd_half = standard_errors_95 * sd_error;
+    found.delay_ms = {mean, mean - mean_half, mean + mean_half};
+    found.delay_sd_ms = {sd, std::max(sd - sd_half, 0.0), sd + sd_half};
     return found;
 }
 

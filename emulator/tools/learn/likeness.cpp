@@ -61,7 +61,7 @@ MeasuredWay played_like(const Conditions& conditions, const MeasuredWay& measure
 
 std::pair<double, double> wilson_interval(double share, double count)
 {
-    constexpr double z = 1.959964;
+    constexpr double z = standard_errors_95;
     const double middle = share + z * z / (2.0 * count);
     const double half =
         z * std::sqrt(share * (1.0 - share) / count + z * z / (4.0 * count * count));

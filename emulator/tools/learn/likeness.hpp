@@ -20,6 +20,9 @@ namespace hapnet::emulator::tools {
 /// Both halves of a series, in order; the first has the odd row.
 [[nodiscard]] std::pair<MeasuredWay, MeasuredWay> halves_of(const MeasuredWay& way);
 
+/// Half a 95 % interval of a normal estimate, in standard errors: its 97.5 % quantile.
+inline constexpr double standard_errors_95 = 1.959964;
+
 /// The 95 % interval of a share of `count` independent cases (Wilson, Journal of the American
 /// Statistical Association 22, 1927).
 [[nodiscard]] std::pair<double, double> wilson_interval(double share, double count);
