@@ -47,8 +47,7 @@ public:
     [[nodiscard]] std::optional<std::uint64_t> highest() const { return highest_; }
 
 private:
-    static constexpr std::size_t words =
-        looks_back / 64 + 1; // one more, as the word of the highest may be almost empty
+    static constexpr std::size_t words = looks_back / 64 + 1; // the newest may be almost empty
 
     [[nodiscard]] static std::size_t word_of(std::uint64_t number) { return number / 64 % words; }
     [[nodiscard]] static std::uint64_t bit_of(std::uint64_t number)
