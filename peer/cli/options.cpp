@@ -387,7 +387,7 @@ base::Result<void> load_code(Options& options)
     if (auto loaded = shared_object::load(options.algorithm); !loaded) {
         return base::fail(fmt::format("--algorithm: {}", loaded.error().message));
     }
-    return check_company(options); // only the loaded code tells how many peers it can play with
+    return check_company(options); // only loaded code has plays_with_many
 }
 
 } // namespace hapnet::peer

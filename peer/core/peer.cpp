@@ -81,7 +81,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
     const Remote::Greeting greeting = other.on_hello(hello, arrived);
     if (greeting.refused) {
         if (greeting.had_session) {
-            other.post(wire::Bye{0, *greeting.refused}); // this peer's session goes on without it
+            other.post(wire::Bye{0, *greeting.refused}); // this session continues without it
         } else {
             refuse({*greeting.refused, hello.nonce}, arrived);
         }

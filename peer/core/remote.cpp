@@ -162,7 +162,7 @@ void Remote::take_bodies(const wire::State& state)
         std::size_t i = 0;
         while (i < count_ && bodies_[i].body != body.body) ++i;
         if (i == count_) {
-            if (count_ == bodies_.size()) continue; // no honest peer tells of more bodies
+            if (count_ == bodies_.size()) continue; // no honest peer sends more bodies
             bodies_[count_] = {};
             bodies_[count_++].body = body.body;
         }

@@ -106,7 +106,7 @@ private:
     device::Sample sample_;
     base::Force told_;
     device::GovernorState governor_state_ = device::GovernorState::off;
-    std::optional<base::TimePoint> cued_; // session start that the device was told
+    std::optional<base::TimePoint> cued_; // session start of the last cue
 };
 
 /// Returns the sample that Side::row() has written into a row.

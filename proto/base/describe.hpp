@@ -13,10 +13,10 @@
 
 namespace hapnet::base {
 
-// One description of a struct's fields, beside the struct. Reading and printing TOML, ranges and
-// their errors, and tables of keys (fields.hpp), JSON (fields_json.hpp), CSV (csv.hpp), ramps
-// (ramp.hpp), and what programs tell of a run (proto/output) follow from it, so that none of them
-// can forget a field:
+// A description of a struct's fields, written once beside the struct. Everything else is derived
+// from it, so that no code can forget a field: TOML with ranges, errors and tables of keys
+// (fields.hpp), JSON (fields_json.hpp), CSV (csv.hpp), ramps (ramp.hpp), and the reports of
+// programs on a run (proto/output).
 //
 //     struct Burst {
 //         std::uint32_t lost = 1;

@@ -19,14 +19,14 @@
 
 namespace hapnet::base {
 
-// A format says how the values of a field are written, in TOML and on a command line, and which are
-// allowed. A format of T is a small constant with
-//     void read(const Node&, T&, Reading&) const;  complains, and leaves the target as it was
+// A format defines how the values of a field are written, in TOML and on a command line, and which
+// are allowed. A format of T is a small constant with
+//     void read(const Node&, T&, Reading&) const;  complains, and leaves the target unchanged
 //     std::string print(const T&) const;           TOML that reads back as the same value
 //     std::string describe() const;                for people: "a time from 0ms to 10s"
 //     std::string example() const;                 optional: an allowed value as TOML, "10ms"
-// A format whose values stand in TOML without quotes has `is_bare`.
-// Code with values of a kind of its own defines such a struct beside them.
+// A format whose values are written in TOML without quotes has `is_bare`.
+// Code with its own kind of values defines such a struct beside them.
 
 template <typename Format, typename T>
 concept FormatOf = requires(const Format format, const Node& node, T& target, Reading& reading)

@@ -84,8 +84,7 @@ private:
     std::uint64_t max_ = 0;
 };
 
-/// A histogram whose copies use assign(), so that the reader of a snapshot does not wait for a copy
-/// of the whole.
+/// A histogram that is copied with assign(), so that its user does not wait for a copy of 20 KiB.
 class SnapshotHistogram : public DurationHistogram {
 public:
     SnapshotHistogram() = default;

@@ -27,7 +27,7 @@ public:
         bool has_own_network = false;
         bool has_own_group = false;             // own process group, and /dev/null as stdin
         int output = -1;                        // stdout and stderr; -1: those of this process
-        std::vector<std::string> environment{}; // "NAME=value", besides those of this process
+        std::vector<std::string> environment{}; // "NAME=value", added to those of this process
         std::string hosts{};                    // lines added to its /etc/hosts
         std::string name_servers{};             // text of its /etc/resolv.conf; "": unchanged
         /// Runs in the command's network when prepare() is called, before the command runs. Throws

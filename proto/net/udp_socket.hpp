@@ -25,9 +25,9 @@ struct Received {
 /// The expected load of a socket.
 enum class Load : std::uint8_t {
     stream, // one sender at a few thousand datagrams a second
-    bulk,   // as many datagrams as it can take: the kernel may hand over neighbours of one size
-            // together (UDP_GRO), and a privileged program gets the receive buffer that it asks
-            // for. Each datagram has its marks
+    bulk,   // as many datagrams as possible: the kernel may pass on neighbours of one size
+            // together (UDP_GRO), a privileged program gets the receive buffer that it requests,
+            // and each datagram has its marks
 };
 
 /// A bound, non-blocking UDP socket with kernel receive stamps. Sends and receives; makes no

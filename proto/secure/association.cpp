@@ -455,7 +455,7 @@ void Association::answer(base::TimePoint now)
     send_answer(now);
     responding_.reset();
     if (!unconfirmed_since_) unconfirmed_since_ = now;
-    if (!waits_for_confirmation(now)) return; // this side's own handshake goes on
+    if (!waits_for_confirmation(now)) return; // this side's own handshake continues
     end_initiating();                         // the other side's handshake is further
     confirm_at_.reset();
     unanswered_since_.reset();

@@ -79,7 +79,7 @@ base::Velocity DeadReckoning::velocity_to(const Fix& next, base::Duration span) 
     base::Duration apart = span;
     if (options_.velocity == VelocityRule::arrival) apart = next.arrived - newest_->arrived;
     if (options_.velocity == VelocityRule::sender) apart = sent_apart;
-    // Arrived at once, or a duplicate: no time has passed that tells of a velocity.
+    // No velocity can be computed from states without a time between them, such as duplicates.
     const bool tells = options_.velocity == VelocityRule::sender ? apart != base::Duration{0}
                                                                  : apart > base::Duration{0};
     if (!tells) return velocity_;
