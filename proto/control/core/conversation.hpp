@@ -68,8 +68,8 @@ public:
     void on_gone();
     [[nodiscard]] bool is_gone() const { return is_gone_; }
 
-    /// Does one step: answers a request, checks the waiting one, or sends a line of a watch. Returns
-    /// true if another step may follow at once.
+    /// Does one step: answers a request, checks the waiting one, or sends a line of a watch.
+    /// Returns true if another step may follow at once.
     bool advance(const Subject& subject, base::TimePoint now);
 
     /// Returns when to call advance() again although nothing was received; nullopt: never.
