@@ -14,23 +14,23 @@
 
 namespace hapnet::ctl {
 
-/// The control socket of a program, from the outside: lines out, lines in.
+/// A client's connection to the control socket of a program. It sends and receives lines.
 class Connection {
 public:
     enum class State : std::uint8_t {
         good,
         closed,  // the program has ended or closed the connection
-        late,    // no answer in time
-        stopped, // a signal came
+        late,    // no answer before the deadline
+        stopped, // a stop signal arrived
     };
 
-    /// Throws std::system_error when no program answers at the path.
+    /// Throws std::system_error if no program answers at the path.
     Connection(const std::string& path, net::StopSignal& stop);
 
     /// Sends a line, without its newline.
     [[nodiscard]] State send(std::string_view line, base::TimePoint deadline);
 
-    /// Waits for the next line and puts it where line() finds it.
+    /// Waits for the next line, which line() then returns.
     [[nodiscard]] State receive(std::optional<base::TimePoint> deadline);
     [[nodiscard]] const std::string& line() const { return line_; }
 

@@ -28,17 +28,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view program = "hapnet-ctl";
 
-/// The longest time to wait for an answer; it usually takes milliseconds.
+/// The longest wait for an answer, which usually takes milliseconds.
 constexpr base::Duration answer_max = 10s;
 
-/// Returns the exit code of an answer.
+/// Returns the exit code that belongs to an answer.
 int exit_code(const Json& reply)
 {
     if (reply.value("ok", false)) return reply.value("met", true) ? 0 : net::exit_failed;
     return reply.value("busy", false) ? net::exit_environment : net::exit_usage;
 }
 
-/// Prints one answer; returns the exit code that it stands for.
+/// Prints one answer and returns its exit code.
 int print(const std::string& line, const Options& options, WatchPrinter& watch)
 {
     const auto reply = Json::parse(line, nullptr, /*allow_exceptions*/ false);
@@ -65,7 +65,7 @@ int print(const std::string& line, const Options& options, WatchPrinter& watch)
     return code;
 }
 
-/// Returns the deadline of an answer; nullopt for those that may take any time.
+/// Returns the deadline of an answer; nullopt if it may take any time.
 std::optional<base::TimePoint> answer_deadline(const Options& options)
 {
     if (options.command == "watch") return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<base::TimePoint> answer_deadline(const Options& options)
     return now + *options.timeout + answer_max;
 }
 
-/// Says why there is no further answer; the exit code.
+/// Reports why there is no further answer. Returns the exit code.
 int say_why(Connection::State state, const Options& options)
 {
     switch (state) {

@@ -69,7 +69,7 @@ constexpr const char* exit_codes = R"(  0  done
 
 using Words = std::vector<std::string>;
 
-/// Keys and values in turn: "both.delay 80ms", or "both.delay=80ms".
+/// Parses alternating keys and values: "both.delay 80ms", or "both.delay=80ms".
 base::Result<void> take_settings(const Words& words, Options& options)
 {
     for (auto word = words.begin(); word != words.end(); ++word) {

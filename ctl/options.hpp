@@ -13,7 +13,7 @@
 
 namespace hapnet::ctl {
 
-/// The options of the command line. The program behind the socket checks most values.
+/// The options of the command line. The program behind the socket checks most of the values.
 struct Options {
     std::string socket;
     std::string command; // "show", "set", ...
@@ -30,7 +30,8 @@ struct Options {
     bool as_csv = false; // option of stats
 };
 
-/// `default_socket` is that of $HAPNET_SOCKET; nullptr where it is not set.
+/// Parses the command line. `default_socket` is the value of $HAPNET_SOCKET; nullptr if it is not
+/// set.
 [[nodiscard]] net::CommandLine<Options> parse_options(std::span<char*> words,
                                                       const char* default_socket);
 

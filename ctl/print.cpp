@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The value at a pointer such as "/up/received"; null when there is none.
+/// Returns the value at a pointer such as "/up/received"; null if there is none.
 Json at(const Json& json, const std::string& pointer)
 {
     const Json::json_pointer place{pointer};
@@ -37,7 +37,7 @@ std::string text_at(const Json& json, const std::string& pointer)
     return text_of(at(json, pointer));
 }
 
-/// A line for each value: "up.received,100".
+/// Returns a line for each value: "up.received,100".
 std::string csv_lines(const Json& json, const std::string& key)
 {
     if (!json.is_structured()) {
@@ -69,7 +69,7 @@ std::uint64_t total_of(const Json& dropped)
     return total;
 }
 
-/// A peer of a session in virtual time is one, too.
+/// True for an answer of a peer, including a peer of a session in virtual time.
 bool is_from_peer(const Json& reply) { return !at(reply, "/peer_id").is_null(); }
 
 std::string peer_text(const Json& reply)
@@ -133,10 +133,10 @@ std::string diff_text(const Json& reply)
     return text.empty() ? "nothing would change\n" : text;
 }
 
-/// The most paths whose datagram numbers are printed for a person.
+/// The largest number of paths whose datagram numbers are printed.
 constexpr std::size_t paths_told_max = 4;
 
-/// Says from which datagrams on the conditions hold.
+/// Returns text that names the datagrams from which on the conditions apply.
 std::string effect_text(const Json& reply)
 {
     std::string from;
@@ -237,7 +237,8 @@ std::string WatchPrinter::table(const Json& statistics) const
                                 text_at(statistics, place + "/lateness_us/p99"));
         }
     }
-    // Back to the top of the table before, whose lines are overwritten to their ends.
+    // Moves the cursor back to the top of the previous table, whose lines are overwritten to their
+    // ends.
     const auto lines = std::count(rows.begin(), rows.end(), '\n');
     std::string text = last_ ? fmt::format("\x1b[{}A", lines) : "";
     for (const char c : rows) text += c == '\n' ? "\x1b[K\n" : std::string{c};

@@ -10,19 +10,19 @@
 
 namespace hapnet::ctl {
 
-// The answers of an emulator or a peer, for a person. A key that a program of another version does
-// not send is shown as "-".
+// Prints the answers of an emulator or a peer for people. A key that a program of another version
+// does not send is shown as "-".
 
-/// The answer to `command`, except those to watch.
+/// Returns the text for the answer to any command except watch.
 [[nodiscard]] std::string in_words(const Options& options, const nlohmann::ordered_json& reply);
 
-/// The lines of a watch, with rates since the line before.
+/// Prints the lines of a watch, with the rates since the previous line.
 class WatchPrinter {
 public:
     explicit WatchPrinter(bool is_terminal) : is_terminal_{is_terminal} {}
 
-    /// Returns the text that shows the next answer: on a terminal a table that replaces the last
-    /// one, otherwise a line of key=value.
+    /// Returns the text for the next answer. On a terminal it is a table that replaces the previous
+    /// one, otherwise a line of key=value pairs.
     [[nodiscard]] std::string next(const nlohmann::ordered_json& reply);
 
 private:

@@ -21,7 +21,8 @@ namespace hapnet::ctl {
 
 namespace {
 
-/// The files that laws name, wherever they stand: { law = "trace", file = "delays.csv" }.
+/// Adds the files that laws name at any place of a document: { law = "trace", file = "delays.csv"
+/// }.
 void add_names(const base::Node& node, std::set<std::string>& names)
 {
     if (const auto* list = std::get_if<base::Node::List>(&node.value)) {
@@ -36,8 +37,8 @@ void add_names(const base::Node& node, std::set<std::string>& names)
     }
 }
 
-/// Sends the files of these names, which lie in `folder`, along. If none of them is there, they are
-/// those of the folder that the emulator reads.
+/// Adds the content of the files with these names, which are in `folder`. If none of them exists,
+/// they are meant to be in the folder that the emulator reads.
 base::Result<void> add_files(const std::set<std::string>& names,
                              const std::filesystem::path& folder, nlohmann::ordered_json& request)
 {
@@ -54,8 +55,7 @@ base::Result<void> add_files(const std::set<std::string>& names,
     return {};
 }
 
-/// The profile that a request names: its text with its files, or a name that only the emulator can
-/// know.
+/// Adds the profile: its text with its files, or a name that only the emulator can resolve.
 base::Result<void> add_profile(const std::string& file, nlohmann::ordered_json& request)
 {
     const bool is_input = file == "-";
@@ -72,11 +72,11 @@ base::Result<void> add_profile(const std::string& file, nlohmann::ordered_json& 
     if (const auto document = base::parse_document(*text)) add_names(*document, names);
     request["profile"] = *std::move(text);
     request["file"] = is_input ? "(standard input)" : file;
-    // Files that a profile names lie beside the profile.
+    // Files that a profile names are in the folder of the profile.
     return add_files(names, is_input ? "" : std::filesystem::path{file}.parent_path(), request);
 }
 
-/// Settings may name files, too: they lie where this was started.
+/// Adds the settings. Files that they name are in the working directory.
 base::Result<void> add_settings(const Options& options, nlohmann::ordered_json& request)
 {
     std::set<std::string> names;

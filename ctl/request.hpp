@@ -9,8 +9,8 @@
 
 namespace hapnet::ctl {
 
-/// Returns the request for the program behind the socket. Reads the profile that the options name.
-/// The error names the option and the cure.
+/// Returns the request to send to the program behind the socket. Reads the profile that the options
+/// name. The error names the option and says how to correct it.
 [[nodiscard]] base::Result<nlohmann::ordered_json> make_request(const Options& options);
 
 } // namespace hapnet::ctl

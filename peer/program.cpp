@@ -41,11 +41,10 @@ namespace {
 
 constexpr std::string_view program = "hapnet-peer";
 
-/// The time after a stop by which the process is gone, whatever blocks it. An orderly end takes a
-/// tenth of it.
+/// The time after a stop at which the process ends in any case. An orderly end takes a tenth of it.
 constexpr base::Duration gone_after{std::chrono::milliseconds{800}};
 
-/// stdout and stderr, which need not be read.
+/// The text queues of stdout and stderr, which nobody needs to read.
 struct Screen {
     net::TextQueue out{STDOUT_FILENO};
     net::TextQueue err{STDERR_FILENO};
@@ -57,7 +56,7 @@ struct Screen {
     [[nodiscard]] std::uint64_t lost() const { return err.lost() + out.lost(); }
 };
 
-/// The control socket and the file of the statistics, as far as the options name them.
+/// The control socket and the statistics file, if the options name them.
 struct Outlets {
     explicit Outlets(const Options& options)
     {
@@ -75,7 +74,8 @@ struct Endpoints {
     std::optional<net::Endpoint> plot{};
 };
 
-/// The remote, preferably in the family of `listen`: a name may have addresses of both.
+/// Resolves the remote, preferably in the family of `listen`, because a name may have addresses of
+/// both families.
 net::Endpoint resolve_remote(const net::HostPort& remote, const net::Endpoint& listen)
 {
     try {
@@ -91,7 +91,7 @@ std::string option_of(const Options& options, const NamedPeer& other)
     return options.is_pair() ? "--remote" : fmt::format("--peer {}:", other.id);
 }
 
-/// Refuses places that cannot hear each other: `listen` and another peer's.
+/// Refuses addresses between which no datagrams can be sent: `listen` and that of another peer.
 base::Result<void> check_remote(const net::Endpoint& listen, const net::Endpoint& remote,
                                 const std::string& option)
 {
@@ -173,9 +173,9 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.algorithm = options.algorithm;
     settings.send = options.send;
     settings.playout = options.playout;
-    // The scene's springs are as much stiffer at the hand as its dampers: by the scale squared.
+    // At the hand, the scene's springs and dampers are both stiffer by the scale squared.
     settings.grip_damping_ns_per_m = options.grip_damping_ns_per_m / (mount.scale * mount.scale);
-    // A simulated hand cannot be hurt, so its experiments have no limit of stiffness.
+    // A simulated hand cannot be hurt, so its stiffness is not limited.
     if (options.device.is_real()) {
         settings.stiffness_max_n_per_m =
             rig.device().capabilities().stiffness_max_n_per_m / (mount.scale * mount.scale);
@@ -186,7 +186,7 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     return settings;
 }
 
-/// The lines to the other peers: sealed with the key that the options name.
+/// Returns the lines to the other peers, sealed with the key that the options name.
 line::Lines lines_of(const Options& options, const std::vector<net::Endpoint>& remotes,
                      std::uint32_t run)
 {
@@ -210,7 +210,7 @@ line::Lines lines_of(const Options& options, const std::vector<net::Endpoint>& r
     return line::Lines{std::move(lines)};
 }
 
-/// The limits of a session, before those of the device itself.
+/// Returns the limits of a session, without those of the device itself.
 device::GovernorLimits limits_of(const Options& options, const device::Capabilities& capabilities,
                                  const std::optional<device_state::KeptDevice>& kept)
 {
@@ -249,7 +249,7 @@ monitor::Recorder::Setup recording_for(const Options& options, std::string_view 
 {
     nlohmann::json configuration = monitor::configuration_json(options, device);
     configuration["started_unix_s"] = net::wall_clock_seconds();
-    // The session's number follows from it.
+    // The number of the session is computed from it.
     configuration["nonce"] = settings.introduction.nonce;
     configuration["grip_damping_ns_per_m"] = settings.grip_damping_ns_per_m; // in the scene's scale
     configuration["stiffness_max_n_per_m"] = settings.stiffness_max_n_per_m; // in the scene's scale
@@ -278,7 +278,7 @@ monitor::Named named_in(const Settings& settings)
     return named;
 }
 
-/// Introduces a real device to its holder, and says what of the forces asked for it cannot render.
+/// Describes a real device to its holder, and says which of the requested forces it cannot render.
 void introduce(const Options& options, const device::Rig& rig, Screen& screen)
 {
     if (options.device.is_real()) {
@@ -326,8 +326,8 @@ std::string ready_line(const Options& options, const net::UdpSocket& socket,
                        name_of(options.algorithm), options.seed.value());
 }
 
-/// Statistics that find no room in their file go to stdout: they are worth more than their place.
-/// Gives the exit code.
+/// Writes the statistics. If they cannot be written to their file, they are printed on stdout, so
+/// that they are not lost. Returns the exit code.
 int write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& file, Screen& screen)
 {
     if (!run.options.stats) return 0;
@@ -343,7 +343,7 @@ int write_statistics(const monitor::Run& run, std::optional<disk::ResultFile>& f
     return code;
 }
 
-/// Prints how the run went, and returns its exit code.
+/// Prints the result of the run, and returns its exit code.
 int conclude(const monitor::Run& run, const device::Governor& governor, Screen& screen)
 {
     screen.err.put(base::visible_lines(summary(run)));
@@ -359,7 +359,7 @@ int conclude(const monitor::Run& run, const device::Governor& governor, Screen& 
     return run.options.record && !run.is_record_whole ? net::exit_environment : 0;
 }
 
-/// Waits for the reader of the program's output, but not for ever. Output that could not be printed
+/// Waits for the reader of the program's output, but not forever. Output that could not be printed
 /// is an error.
 int finish(int code, const Screen& screen, const net::StopSignal& stop)
 {
@@ -386,14 +386,14 @@ int finish_events(int code, const std::optional<monitor::EventLog>& events, Scre
     return code == 0 ? net::exit_environment : code;
 }
 
-/// Returns the log in the file that the options name, which is emptied, or on stdout.
+/// Returns the log to the file that the options name, which is emptied, or to stdout.
 std::optional<monitor::EventLog> events_for(const Options& options, Screen& screen)
 {
     if (!options.events) return std::nullopt;
     return std::optional<monitor::EventLog>{std::in_place, *options.events, screen.out};
 }
 
-/// Returns the stream to the plotter, where there is one.
+/// Returns the stream to the plotter, if there is one.
 std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& plotter,
                                             std::uint16_t id, monitor::Monitor& monitor)
 {
@@ -401,7 +401,7 @@ std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& 
     return std::optional<monitor::PlotStream>{std::in_place, *plotter, id, monitor.watch_frames()};
 }
 
-/// A session, from the device that is opened to the files that are written.
+/// Runs a session, from opening the device to writing the files.
 int play(const Options& options, const Endpoints& endpoints, const net::StopSignal& stop)
 {
     net::ServiceManager manager;
@@ -435,7 +435,7 @@ int play(const Options& options, const Endpoints& endpoints, const net::StopSign
     line::Lines lines = lines_of(options, endpoints.remotes, settings.introduction.nonce);
     loop::Servo servo{{side, rig, socket, endpoints.remotes, lines, journal, watchdog, gate,
                        std::chrono::milliseconds{1}, layout_for(options.scene)}};
-    // Last of all that may fail: the files are emptied.
+    // This is the last step that may fail, because it empties the files.
     auto events = events_for(options, screen);
     monitor::Monitor monitor{journal, screen.err, recording_for(options, device, rig, settings),
                              named_in(settings), events ? &*events : nullptr};

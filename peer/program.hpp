@@ -6,8 +6,8 @@
 
 namespace hapnet::peer {
 
-/// Runs hapnet-peer. `words` are those of the command line, the program's name first. Returns the
-/// exit code; docs/use and --help list them.
+/// Runs hapnet-peer. `words` is the command line, beginning with the program's name. Returns the
+/// exit code; docs/use and --help list the codes.
 int main_program(std::span<char*> words);
 
 } // namespace hapnet::peer

@@ -129,7 +129,7 @@ void add_self_test(cli::Command& command, SelfTestCommand& options)
                    cli::into(options.json, parse_report_file));
 }
 
-/// A command's own options, if they do not contradict each other.
+/// Returns a command's options, unless they contradict each other.
 template <typename Options>
 net::CommandLine<Command> checked(base::Result<void> fine, Options options)
 {

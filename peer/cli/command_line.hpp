@@ -15,23 +15,23 @@
 
 namespace hapnet::peer {
 
-/// `hapnet-peer list-devices [--json]`
+/// The command `hapnet-peer list-devices [--json]`.
 struct ListDevicesCommand {
     device::DeviceOptions options;
     bool json = false;
 };
 
-/// `hapnet-peer doctor [--json] [--key FILE] [--print-udev-rules]`
+/// The command `hapnet-peer doctor [--json] [--key FILE] [--print-udev-rules]`.
 struct DoctorCommand {
     std::string hd_library;
     std::optional<std::string> key;
     bool json = false;
 };
 
-/// The steps of a self-test, in their order.
+/// The steps of a self-test, in order.
 inline constexpr std::array self_test_steps{"read", "calibrate", "force", "cable"};
 
-/// `hapnet-peer self-test --device ... [--skip STEP]... [--json FILE]`
+/// The command `hapnet-peer self-test --device ... [--skip STEP]... [--json FILE]`.
 struct SelfTestCommand {
     DeviceChoice device;
     std::vector<std::string> skip;
@@ -39,11 +39,11 @@ struct SelfTestCommand {
     std::optional<std::string> json; // file for the report as JSON
 };
 
-/// Options: a session.
+/// A command. Options stands for a session.
 using Command =
     std::variant<Options, ListDevicesCommand, DoctorCommand, SelfTestCommand, KeyCommand>;
 
-/// Reads the command line; the error names the option, what is wrong with it, and what would be
+/// Parses the command line. The error names the option, what is wrong with it, and what would be
 /// right.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);
 

@@ -7,7 +7,7 @@
 
 namespace hapnet::peer {
 
-// The commands besides a session. Each gives its exit code.
+// The commands other than a session. Each returns its exit code.
 
 [[nodiscard]] base::Result<int> run(const ListDevicesCommand& command);
 [[nodiscard]] base::Result<int> run(const DoctorCommand& command);

@@ -22,7 +22,8 @@ namespace {
 constexpr double mount_scale_max = 20.0;
 constexpr double mount_scale_min = 0.05;
 constexpr double hid_force_max_n = 100.0;
-// Its loader takes 14 000 bytes a second: more would load for longer than a minute.
+// The largest firmware. The loader of a Falcon takes 14 000 bytes a second, so a larger one would
+// take longer than a minute.
 constexpr std::size_t falcon_firmware_max_bytes = 1U << 20;
 constexpr std::string_view replay_prefix = "replay:";
 constexpr double hid_travel_min_m = 0.01;
@@ -53,7 +54,7 @@ base::Result<device::HandTrace> hand_trace_in(const std::string& file)
     return device::parse_hand_trace(*text, file);
 }
 
-/// "0mm,20mm,-5mm"
+/// Parses "0mm,20mm,-5mm".
 base::Result<base::Displacement> parse_offset(const std::string& text)
 {
     const auto refuse = [&] {
@@ -75,7 +76,8 @@ base::Result<base::Displacement> parse_offset(const std::string& text)
     return offset;
 }
 
-/// The name of a file that holds a firmware, as far as can be told without its device.
+/// Checks that a file contains firmware, as far as possible without the device, and returns its
+/// name.
 base::Result<std::string> firmware_at(const std::string& file)
 {
     const auto bytes = net::text_of_file(file);
@@ -86,7 +88,7 @@ base::Result<std::string> firmware_at(const std::string& file)
                                   bytes->size(), falcon_firmware_max_bytes));
 }
 
-/// The name of a file that holds what an Omni's motors were measured to give.
+/// Checks that a file contains the measured torques of an Omni's motors, and returns its name.
 base::Result<std::string> omni_profile_at(const std::string& file)
 {
     const auto text = net::text_of_file(file);
@@ -122,7 +124,7 @@ base::Result<double> parse_hid_force(const std::string& text)
     return force;
 }
 
-/// Opens what replay:FILE names. Other devices are only named here.
+/// Takes the value of --device. Opens the file of replay:FILE; other devices are not opened here.
 base::Result<void> take_device(const std::string& typed, DeviceChoice& choice)
 {
     const auto meant = cli::meant_value("--device", typed);
@@ -235,8 +237,8 @@ void add_finding_options(cli::Command& command, device::DeviceOptions& options)
     add_hid_force(command, options.hid_force_n);
 }
 
-/// Refuses options that would be silently ignored: a person should know that a measured force does
-/// not count.
+/// Refuses options that would otherwise be ignored silently, because a person should know that a
+/// measured force has no effect.
 base::Result<void> check_device_options(const cli::Command& command, const DeviceChoice& choice)
 {
     struct OptionOfDevice {

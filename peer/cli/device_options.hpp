@@ -15,13 +15,13 @@
 
 namespace hapnet::peer {
 
-/// The device that a person wants, and its settings.
+/// The chosen device, and its settings.
 struct DeviceChoice {
     std::string name = "sim";
     std::optional<device::HandTrace> replay; // recorded hand for --device replay:FILE
     bool replay_loops = false;
-    std::shared_ptr<device::HandWishes> page{}; // wishes for the hand of --device page
-    device::Operator person;                    // person whose hand a simulated device has
+    std::shared_ptr<device::HandWishes> page{}; // requests for the hand of --device page
+    device::Operator person;                    // person whose hand moves a simulated device
     device::DeviceOptions options;              // options of a real device
     std::optional<base::Displacement> mount_offset;
     std::optional<double> mount_scale;
@@ -34,14 +34,14 @@ struct DeviceChoice {
 };
 
 /// Adds --device and the options that belong to it, bound to `choice`. A wrong value, or an error
-/// in a file that an option names, is bad usage and is found before a device is touched. Returns
-/// the option --device.
+/// in a file that an option names, is a usage error and is reported before a device is opened.
+/// Returns the option --device.
 cli::Option& add_device_options(cli::Command& command, DeviceChoice& choice);
 
-/// Adds only those of these options that matter to a command which lists the real devices.
+/// Adds only the options that affect a command that lists the real devices.
 void add_finding_options(cli::Command& command, device::DeviceOptions& options);
 
-/// Refuses options of another device than the chosen one. Call it after the command line was read.
+/// Refuses options that belong to a device other than the chosen one. Call it after parsing.
 [[nodiscard]] base::Result<void> check_device_options(const cli::Command& command,
                                                       const DeviceChoice& choice);
 

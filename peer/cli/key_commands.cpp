@@ -91,7 +91,7 @@ constexpr const char* no_shared_key =
     "this circle has no shared key: --make-shared OTHER makes one, --shared OTHER takes the other "
     "host's (hapnet-peer key --help)\n";
 
-/// Gives the file the shared key that the command asks for.
+/// Puts the shared key that the command names into the file.
 base::Result<void> share(const KeyAddCommand& command, secure::KeyFile& file)
 {
     if (!command.make_shared.empty()) {
@@ -114,7 +114,7 @@ base::Result<void> share(const KeyAddCommand& command, secure::KeyFile& file)
     return {};
 }
 
-/// The key file, and no core dump of it.
+/// Reads the key file, and protects the process from core dumps.
 base::Result<secure::KeyFile> opened(const std::string& file)
 {
     secure::keys::hide_process();

@@ -13,28 +13,29 @@
 
 namespace hapnet::peer {
 
-/// `hapnet-peer keygen --peers N [--name NAME] --out DIR`: the files of a whole circle.
+/// The command `hapnet-peer keygen --peers N [--name NAME] --out DIR`, which makes the files of a
+/// whole circle.
 struct KeygenCircleCommand {
     std::uint8_t peers = 2;
     std::string name = "lab";
     std::string folder;
 };
 
-/// `hapnet-peer keygen --own --id ID [--name NAME] --out FILE`: one host's file; nothing secret has
-/// to travel.
+/// The command `hapnet-peer keygen --own --id ID [--name NAME] --out FILE`, which makes one host's
+/// file, so that no secret has to be transferred.
 struct KeygenOwnCommand {
     std::uint8_t id = 1;
     std::string name = "lab";
     std::string file;
 };
 
-/// `hapnet-peer key show FILE`
+/// The command `hapnet-peer key show FILE`.
 struct KeyShowCommand {
     std::string file;
 };
 
-/// `hapnet-peer key add FILE --id ID --public KEY [--endpoint HOST:PORT] [--make-shared FILE |
-/// --shared FILE]`
+/// The command `hapnet-peer key add FILE --id ID --public KEY [--endpoint HOST:PORT] [--make-shared
+/// FILE | --shared FILE]`.
 struct KeyAddCommand {
     std::string file;
     std::uint8_t id = 0;
@@ -47,7 +48,7 @@ struct KeyAddCommand {
 using KeyCommand =
     std::variant<KeygenCircleCommand, KeygenOwnCommand, KeyShowCommand, KeyAddCommand>;
 
-/// The commands about keys: adds them to a program, and says afterwards which one was chosen.
+/// Adds the commands about keys to a program, and returns the chosen one after parsing.
 class KeyCommands {
 public:
     explicit KeyCommands(cli::Command& program);
@@ -56,7 +57,7 @@ public:
     ~KeyCommands() = default;
 
     [[nodiscard]] bool is_chosen() const;
-    /// Returns the chosen command; an error when its options contradict each other.
+    /// Returns the chosen command, or an error if its options contradict each other.
     [[nodiscard]] base::Result<KeyCommand> chosen() const;
 
 private:
@@ -74,7 +75,7 @@ private:
     KeyAddCommand adding_;
 };
 
-// The commands. Each returns its exit code.
+// Functions that run the commands. Each returns its exit code.
 
 [[nodiscard]] base::Result<int> run(const KeygenCircleCommand& command);
 [[nodiscard]] base::Result<int> run(const KeygenOwnCommand& command);

@@ -43,7 +43,7 @@ base::Result<void> check_named(const KeyChoice& choice, const std::vector<NamedP
     return {};
 }
 
-/// Returns the only other peer, which is at --remote.
+/// Returns the only other peer, whose address is that of --remote.
 base::Result<std::vector<NamedPeer>> other_at(const net::HostPort& place, const KeyChoice& choice)
 {
     if (!choice.is_given()) return std::vector{NamedPeer{0, place}};
@@ -63,7 +63,7 @@ base::Result<net::HostPort> place_of(const secure::KeyFile::Member& member, cons
                                   path, member.endpoint, member.id));
 }
 
-/// All of the circle, as the key file says where they are.
+/// Returns all peers of the circle, at the addresses in the key file.
 base::Result<std::vector<NamedPeer>> others_in(const KeyChoice& choice)
 {
     const auto& members = choice.file->others;

@@ -15,18 +15,18 @@
 
 namespace hapnet::peer {
 
-/// The key of a session, as the command line asks for it.
+/// The options of the command line about the key of a session.
 struct KeyChoice {
-    std::shared_ptr<const secure::KeyFile> file; // null: no key
+    std::shared_ptr<const secure::KeyFile> file; // nullptr: no key
     std::string path;
-    bool stays = false; // --no-roam: messages go only to the places given for the others
+    bool stays = false; // --no-roam: send only to the given places of the others
 
     [[nodiscard]] bool is_given() const { return file != nullptr; }
 };
 
-/// Another peer and its place, as `--peer ID=HOST:PORT` gives them.
+/// Another peer and its address, from `--peer ID=HOST:PORT`.
 struct NamedPeer {
-    std::uint8_t id = 0; // 0: any peer that answers at the place
+    std::uint8_t id = 0; // 0: any peer that answers at that address
     net::HostPort place;
 };
 [[nodiscard]] base::Result<NamedPeer> parse_named_peer(const std::string& text);
@@ -35,14 +35,14 @@ struct NamedPeer {
 /// leaves no core dump.
 void add_key_options(cli::Command& program, KeyChoice& choice);
 
-/// The places of the other peers, as far as the command line gives them.
+/// The addresses of the other peers that the command line gives.
 struct KeyedPlaces {
     std::vector<NamedPeer> named;       // --peer
     std::optional<net::HostPort> place; // --remote
 };
-/// Returns the other peers by their ids, ascending. Call it after the command line was read. If
-/// peers are named there, only these play. Otherwise all peers of the key file play, and it must
-/// give their places. The error says what is missing or does not fit.
+/// Returns the other peers, sorted by their ids. Call it after parsing. If the command line names
+/// peers, only these take part. Otherwise all peers of the key file take part, and the file must
+/// give their addresses. The error says what is missing or inconsistent.
 [[nodiscard]] base::Result<std::vector<NamedPeer>> find_others(const KeyChoice& choice,
                                                                const KeyedPlaces& places);
 

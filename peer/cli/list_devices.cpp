@@ -10,7 +10,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// Returns the name as --device takes it.
+/// Returns the name in the form that --device accepts.
 std::string name_of(const device::Identity& identity)
 {
     if (identity.serial.empty()) return identity.backend;

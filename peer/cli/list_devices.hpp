@@ -9,10 +9,10 @@
 
 namespace hapnet::peer {
 
-/// A table for a person, with what to do about those that cannot be used.
+/// Returns a table for people, with advice on devices that cannot be used.
 [[nodiscard]] std::string device_table(const std::vector<device::Found>& found);
 
-/// The list as one JSON object.
+/// Returns the list as one JSON object.
 [[nodiscard]] std::string device_json(const std::vector<device::Found>& found);
 
 } // namespace hapnet::peer

@@ -27,7 +27,7 @@ constexpr double force_limit_max_n = 40.0; // more than any of the devices can e
 constexpr double force_limit_min_n = 1e-3; // less than any hand feels
 constexpr double grip_damping_min_ns_per_m = 1e-3;
 
-/// A damping that leaves something to be felt.
+/// Parses a damping that still lets contacts be felt.
 base::Result<double> parse_grip_damping(const std::string& text)
 {
     auto damping = base::parse_quantity(text, base::damping_kind);
@@ -42,7 +42,7 @@ base::Result<double> parse_grip_damping(const std::string& text)
     return damping;
 }
 
-/// No force, or one that can be felt.
+/// Parses a force limit: zero, or a force that can be felt.
 base::Result<double> parse_force_limit(const std::string& text)
 {
     auto force = base::parse_quantity(text, base::force_kind);
@@ -57,7 +57,7 @@ base::Result<double> parse_force_limit(const std::string& text)
     return force;
 }
 
-/// A scene that peers can share.
+/// Loads a scene, and refuses it if peers cannot share it.
 base::Result<scene::Description> scene_for_a_session(const std::string& file_or_name)
 {
     auto scene = scene::load_scene(file_or_name, net::text_of_file);
@@ -67,7 +67,7 @@ base::Result<scene::Description> scene_for_a_session(const std::string& file_or_
     return scene;
 }
 
-/// Loads it, and checks that peers can share it.
+/// Takes the scene of a session.
 base::Result<void> take_scene(const std::string& file_or_name, Options& options)
 {
     auto scene = scene_for_a_session(file_or_name);
@@ -122,7 +122,7 @@ base::Result<std::string> parse_dead_man(const std::string& text)
                                   text));
 }
 
-/// True if two names are of one regular file, also of one that does not exist yet.
+/// True if two names mean the same regular file, which need not exist yet.
 bool is_one_file(const std::string& a, const std::string& b)
 {
     std::error_code trouble;
@@ -151,7 +151,7 @@ base::Result<void> check_results(const Options& options)
     return {};
 }
 
-/// Completes the ids of the peers, and the places of the others.
+/// Completes the ids of the peers and the addresses of the others.
 base::Result<void> complete_peers(Options& options, const Asked& asked, const cli::Command& program)
 {
     KeyedPlaces places{.named = asked.named, .place = {}};
@@ -174,8 +174,8 @@ base::Result<void> complete_peers(Options& options, const Asked& asked, const cl
     return {};
 }
 
-/// Refuses a scene without a hand for each peer. In a pair one hand is enough where the other peer
-/// is only a force.
+/// Refuses a scene without a hand for each peer. In a pair, one hand is enough if the algorithm
+/// represents the other hand only by its force.
 base::Result<void> check_room(const Options& options)
 {
     const std::size_t all = options.others.size() + 1;
@@ -195,7 +195,8 @@ base::Result<void> check_company(const Options& options)
                                   name_of(options.algorithm)));
 }
 
-/// Refuses a number of peers that cannot play together, and options that this number rules out.
+/// Refuses a number of peers that is not supported, and options that are not possible with this
+/// number.
 base::Result<void> check_circle(const Options& options)
 {
     const std::size_t all = options.others.size() + 1;
@@ -273,7 +274,7 @@ void add_force_options(cli::Command& program, Options& options)
                    cli::into(options.dead_man, parse_dead_man));
 }
 
-/// Adds the options for the peers and their places.
+/// Adds the options for the peers and their addresses.
 void add_peer_options(cli::Command& program, Options& options, Asked& asked)
 {
     constexpr std::uint64_t id_max = 65535;
@@ -386,7 +387,7 @@ base::Result<void> load_code(Options& options)
     if (auto loaded = shared_object::load(options.algorithm); !loaded) {
         return base::fail(fmt::format("--algorithm: {}", loaded.error().message));
     }
-    return check_company(options); // only the loaded code tells how many peers it can play with
+    return check_company(options); // only loaded code has plays_with_many
 }
 
 } // namespace hapnet::peer

@@ -24,18 +24,18 @@
 
 namespace hapnet::peer {
 
-/// The options of the command line. Names of hosts are not looked up yet; the scene has been read.
+/// The options of the command line. Host names are not resolved yet; the scene has been read.
 struct Options {
     std::uint16_t id = 1;
     net::HostPort listen{"127.0.0.1", 0};
-    std::vector<NamedPeer> others; // other peers by ascending id; with a key, their first places
-    std::size_t wait_for = 0;      // peers that must be there to start, this one included; 0: all
+    std::vector<NamedPeer> others; // other peers, sorted by id; with a key, their first places
+    std::size_t wait_for = 0;      // number of peers needed to start, this one included; 0: all
     KeyChoice key;
     DeviceChoice device;
     std::string scene_name = "paper";
     scene::Description scene; // must be accepted by shared_bodies()
     double grip_damping_ns_per_m = 4.0;
-    double force_max_n = 3.3; // greatest force that the hand is given
+    double force_max_n = 3.3; // greatest force on the hand
     device::Task task = device::Task::p1;
     Algorithm algorithm;
     SendPolicy send{};
@@ -50,10 +50,11 @@ struct Options {
     std::optional<std::string> events;  // a file, or "-" for stdout
     std::optional<std::string> control; // path of the control socket
     std::optional<net::HostPort> plot;  // destination of frames over UDP
-    cli::KeepOptions keep{};            // how much of the last rows to hold, and where to save them
+    cli::KeepOptions keep{};            // time span of rows to keep, and the folder to save them in
 
     [[nodiscard]] bool is_pair() const { return others.size() <= 1; }
-    /// The peers of the session. A pair accepts any peer that answers at the other place.
+    /// Returns the peers of the session. In a pair, any peer that answers at the other address is
+    /// accepted.
     [[nodiscard]] Roster roster() const
     {
         Roster roster{.others = {}, .wait_for = wait_for};
@@ -64,9 +65,9 @@ struct Options {
     }
 };
 
-/// Values that are read beside the options and not kept.
+/// Values that are needed only until complete() has run.
 struct Asked {
-    std::string printed_algorithm; // what --print-algorithm prints
+    std::string printed_algorithm; // name in --print-algorithm
     net::HostPort remote;          // --remote
     std::vector<NamedPeer> named;  // --peer
 };
@@ -74,13 +75,13 @@ struct Asked {
 /// Adds the options of a session, bound to `options` and `asked`.
 void add_session_options(cli::Command& program, Options& options, Asked& asked);
 
-/// Completes the options after the command line was read: the other peers, and the task's scene
-/// where none was named. Refuses options that contradict each other.
+/// Completes the options after parsing: sets the other peers, and the task's scene if no scene was
+/// named. Refuses options that contradict each other.
 [[nodiscard]] base::Result<void> complete(Options& options, const Asked& asked,
                                           const cli::Command& program);
 
-/// Loads the shared object of the algorithm, if it has one, and so runs code of its file: for a
-/// session that is about to begin, and for nothing that only prints, checks or refuses.
+/// Loads the shared object of the algorithm, if it has one, which runs code of that file. Call it
+/// only for a session that is about to begin, not to print, check or refuse options.
 [[nodiscard]] base::Result<void> load_code(Options& options);
 
 } // namespace hapnet::peer

@@ -40,8 +40,9 @@ constexpr base::Duration prompts_shown_every = 50ms;
 constexpr int ticks_after_the_end = 60; // long enough for the governor to fade out
 constexpr base::Duration gone_after_a_stop = 800ms;
 
-/// The test's loop, at the device's pace where it has one, and what another thread sees of it.
-/// Watched like that of a session: the self-test is what a device's first force comes from.
+/// The loop of the test, at the pace of the device if it sets one, and the data that another thread
+/// sees. It has a watchdog like that of a session, because the self-test exerts the first force of
+/// a device.
 class TestLoop {
 public:
     TestLoop(SelfTest& test, device::Rig& rig, loop::Watchdog& watchdog, loop::ForceGate& gate)
@@ -56,7 +57,7 @@ public:
         if (rig_.device().capabilities().pacing == device::Pacing::device) {
             rig_.device().pace([this] { return tick(), !is_over(); });
         }
-        // The loop runs at its own pace, also after a device that has stopped setting one.
+        // The loop runs at its own pace, even after a device has stopped setting one.
         base::TimePoint due = net::monotonic_now();
         while (!is_over()) {
             due = std::max(due + test_tick, net::monotonic_now());
@@ -99,7 +100,7 @@ private:
     std::atomic<Prompt> prompt_{Prompt::nothing};
 };
 
-/// Shows what the person is to do until the loop has ended; SIGINT and SIGTERM end it.
+/// Shows the instructions for the person until the loop has ended. SIGINT and SIGTERM end it.
 void accompany(TestLoop& loop, const net::StopSignal& stop)
 {
     auto ended = std::async(std::launch::async, [&loop] { loop.run(); });
@@ -116,7 +117,7 @@ void accompany(TestLoop& loop, const net::StopSignal& stop)
     ended.get();
 }
 
-/// Keeps what a later session asks for.
+/// Stores the results that later sessions need.
 void note_result(device_state::KeptDevice& kept, const SelfTest& test, double heat)
 {
     kept.on_rest(heat);
@@ -126,7 +127,7 @@ void note_result(device_state::KeptDevice& kept, const SelfTest& test, double he
                             "--untested-device");
 }
 
-/// Returns the remarks that a session with the paper's scene would make on its contacts.
+/// Returns the notes about contacts that a session with the paper's scene would print.
 std::string stiffness_of_a_session(const DeviceChoice& choice,
                                    const device::Capabilities& capabilities)
 {
@@ -156,7 +157,7 @@ base::Result<int> run(const SelfTestCommand& command)
                    .is_real = command.device.is_real(),
                    .read_for = command.read_for,
                    .skip = command.skip}};
-    // The rig is in the device's own frame, without a mount: no scene is felt here.
+    // The rig uses the device's own frame, without a mount, because there is no scene.
     auto kept = kept_of(command.device, **opened);
     device::GovernorLimits limits{.checks_motion = command.device.is_real()};
     if (kept) {
@@ -166,7 +167,7 @@ base::Result<int> run(const SelfTestCommand& command)
     device::Rig rig{*std::move(opened), limits};
     net::say("hapnet-peer", device::description(rig.device()));
     if (!softer.empty()) net::say("hapnet-peer", "in a session: " + softer);
-    // A simulated person takes the stylus out of its inkwell at the cue, and has no part to play.
+    // A simulated person takes the stylus out of its inkwell at the cue, and needs no instructions.
     if (command.device.is_simulated()) {
         rig.device().on_cue({.start = net::monotonic_now(), .hands_on = {}, .seed = base::Seed{}});
     }

@@ -26,7 +26,7 @@ bool is_for_an_emulator(std::string_view command)
     return std::find(commands.begin(), commands.end(), command) != commands.end();
 }
 
-/// The shortest interval between frames: the one at which clients are served.
+/// The shortest interval between frames, which is the interval at which clients are served.
 constexpr base::Duration frames_least = std::chrono::milliseconds{10};
 
 std::string fine(const Json& members)
@@ -48,7 +48,7 @@ std::string stopped_in_emergency(const PeerControl& peer)
     return control::line_of(Json{{"ok", true}, {"force", "off"}});
 }
 
-/// The answer to a command without members, or that it has too many.
+/// Returns the answer to a command without members, or an error if it has members.
 template <typename Reply>
 control::Answer answer_with(Members& members, Reply reply)
 {
@@ -73,7 +73,7 @@ std::string kept(Members& members, const PeerControl& peer, base::TimePoint now)
     return control::keep_reply(peer.keep(request->name, from), from, now);
 }
 
-/// A coordinate; no number where the member is none.
+/// Returns a coordinate; NaN if the member is not a number.
 double coordinate(Members& members, const char* key)
 {
     const Json* value = members.find(key);
@@ -81,7 +81,7 @@ double coordinate(Members& members, const char* key)
     return is_there ? value->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// True if the member is there and true; the member may be absent.
+/// True if the member is present and true. It may be missing.
 bool is_true(Members& members, const char* key)
 {
     const Json* value = members.find(key);
@@ -90,7 +90,7 @@ bool is_true(Members& members, const char* key)
     return value != nullptr && *value == true;
 }
 
-/// Returns the wish for the hand; nullopt: the hand is to be released.
+/// Returns the requested motion of the hand; nullopt to release the hand.
 base::Result<std::optional<device::HandWish>> wish_in(Members& members)
 {
     if (is_true(members, "let_go")) return std::optional<device::HandWish>{};
@@ -116,7 +116,7 @@ std::string moved(Members& members, const PeerControl& peer)
     return control::line_of(Json{{"ok", true}});
 }
 
-/// A request that takes time, or what is wrong with it.
+/// Returns a request that takes time, or the error in it.
 template <typename Request>
 control::Answer begun(Members& members, Request request)
 {

@@ -14,29 +14,30 @@
 
 namespace hapnet::peer {
 
-/// Makes frames for watching clients from the rows of a peer's record. The loop does no work for
-/// them. While no client watches it keeps only what the sessions agreed on, a row a second.
+/// Makes frames for watching clients from the rows of a peer's record, so that the loop does no
+/// work for them. While no client watches, it keeps only the terms of the sessions, which are one
+/// row a second.
 class FrameTap {
 public:
     explicit FrameTap(std::uint16_t peer_id) : peer_id_{peer_id} {}
 
-    /// Begins a watch; it ends when the source is destroyed. All functions here, and the source,
-    /// belong to one thread.
+    /// Begins a watch, which ends when the source is destroyed. Only one thread may use the
+    /// functions of this class and the source.
     [[nodiscard]] control::FrameSource watch();
 
     void take(const record::Row& row);
-    /// A message as it came; those of rows, too.
+    /// Takes a received message. take() passes the messages of rows to it.
     void hear(std::uint16_t from, base::TimePoint at, std::span<const std::byte> message);
 
-    /// Frames go on from what follows, which may be earlier than what was before.
+    /// Restarts the frames with the rows that follow, which may be earlier than the previous ones.
     void begin_anew();
-    /// Frames go on from what follows, in the same sessions: what was left out was not shown.
+    /// Continues the frames after rows that were left out. The sessions are the same as before.
     void skip();
 
 private:
     using Watch = std::weak_ptr<telemetry::Decimator>;
 
-    /// Calls `visit` with each decimator that is still wanted.
+    /// Calls `visit` with each decimator whose watch has not ended.
     void for_each_watch(const auto& visit);
     void note(const record::SessionRow& session);
 

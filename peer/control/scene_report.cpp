@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 Json turn_json(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
 
-/// Describes a body or one of its parts.
+/// Returns a description of a body or one of its parts.
 Json solid_json(const auto& solid)
 {
     return {{"shape", base::name_of(solid.shape)},

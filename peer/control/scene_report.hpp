@@ -8,8 +8,8 @@
 
 namespace hapnet::peer {
 
-/// Describes a scene to programs that draw a session: docs/formats/live.md. A scene of more than
-/// `bodies_shown_max` bodies is cut there, and says so.
+/// Returns a description of a scene for programs that draw a session, see docs/formats/live.md. If
+/// the scene has more than `bodies_shown_max` bodies, the rest is left out, and the result says so.
 [[nodiscard]] nlohmann::ordered_json scene_json(const scene::Description& scene);
 inline constexpr std::size_t bodies_shown_max = 1000;
 

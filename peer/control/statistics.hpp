@@ -13,7 +13,7 @@
 
 namespace hapnet::peer {
 
-// The parts of a peer's statistics that it has in real and in virtual time.
+// Those parts of a peer's statistics that exist both in real time and in virtual time.
 
 /// The punctuality of a loop.
 struct TickReport {

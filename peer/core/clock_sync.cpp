@@ -12,13 +12,13 @@ namespace hapnet::peer {
 
 namespace {
 
-// The clocks count from a boot: none is ten years ahead of another.
+// The largest offset. Clocks count from a boot, so none is ten years ahead of another.
 constexpr base::Duration offset_max{std::chrono::hours{10 * 365 * 24}};
-// A round trip met hardly any queue if it exceeds the shortest by less than `longer_least`, or by
-// less than the shortest divided by `longer_share`.
+// A round trip counts as free of queueing if it exceeds the shortest by less than `longer_least`,
+// or by less than the shortest divided by `longer_share`.
 constexpr base::Duration longer_least{std::chrono::microseconds{100}};
 constexpr std::int64_t longer_share = 10;
-// The noise that timers and interrupts add to an offset without any queue.
+// The noise in an offset, without any queue, that is caused by timers and interrupts.
 constexpr double offset_noise_ns = 1e6;
 
 base::Duration rounded(double ns) { return base::Duration{std::llround(ns)}; }
@@ -47,7 +47,7 @@ void ClockSync::add(const ClockSample& s)
     follow(s.answer_heard);
 }
 
-/// True if the clocks are one as far as is known with this sample.
+/// True if this sample is consistent with a shared clock.
 bool ClockSync::shows_same_clock(const Window& sample)
 {
     if (same_clock_ == SameClock::no) return false;
@@ -66,8 +66,8 @@ bool ClockSync::shows_same_clock(const Window& sample)
     return false;
 }
 
-/// Returns the distance of a sample from the estimate beyond all that queues and asymmetry can
-/// explain: above 0, or below it when the sample is behind; 0 where they agree.
+/// Returns the part of a sample's deviation from the estimate that queues and asymmetry cannot
+/// explain. It is positive if the sample is ahead, negative if it is behind, and 0 if they agree.
 base::Duration ClockSync::unexplained(const Window& sample) const
 {
     const base::Duration apart = sample.offset - said_;
@@ -78,7 +78,7 @@ base::Duration ClockSync::unexplained(const Window& sample) const
 void ClockSync::consider(const Window& sample)
 {
     if (sample.at - *first_ < settles_within) return;
-    // In a long silence the two drift apart.
+    // During a long silence the two clocks drift apart.
     const base::Duration beyond = std::chrono::abs(unexplained(sample));
     const auto drift = [&] {
         return std::chrono::duration_cast<base::Duration>(slew_max *
@@ -109,7 +109,7 @@ void ClockSync::close_window()
     said_ = fit(said_at_).offset;
 }
 
-/// True if the last windows all say that the clock is elsewhere, on the same side.
+/// True if all of the last windows deviate from the estimate on the same side.
 bool ClockSync::has_jumped() const
 {
     if (count_ < windows_for_jump) return false;
@@ -124,7 +124,7 @@ bool ClockSync::has_jumped() const
 
 ClockSync::Fit ClockSync::fit(base::TimePoint now) const
 {
-    // The window that is open counts as soon as it has a sample.
+    // The open window is used as soon as it has a sample.
     const auto each_window = [this](const auto& look) {
         for (std::size_t i = 0; i < count_; ++i) look(closed_[i]);
         if (open_) look(*open_);
@@ -135,9 +135,9 @@ ClockSync::Fit ClockSync::fit(base::TimePoint now) const
     });
     const base::Duration longest =
         best.round_trip + std::max(longer_least, best.round_trip / longer_share);
-    // Sums about the best one: equal offsets differ by exactly 0. The part of a round trip beyond
-    // the best one may have spoilt its offset by half of that part. Each sample's weight is the
-    // square of the precision that this leaves.
+    // The sums are relative to the best sample, so that equal offsets differ by exactly 0. The part
+    // of a round trip beyond the best one may have falsified its offset by half of that part. Each
+    // sample's weight is the square of the remaining precision.
     double n = 0.0, w = 0.0, t = 0.0, tt = 0.0, x = 0.0, tx = 0.0, xx = 0.0;
     each_window([&](const Window& each) {
         if (each.round_trip > longest) return;
@@ -159,7 +159,7 @@ ClockSync::Fit ClockSync::fit(base::TimePoint now) const
     if (n < static_cast<double>(windows_for_skew)) return best_alone;
     const double spread = tt - t * t / w;
     const double fitted = spread > 0.0 ? (tx - t * x / w) / spread : 0.0; // ns per s
-    // Noise makes a large skew look a little too large; no crystal is twice as far out.
+    // Noise makes a large skew look slightly too large. No crystal deviates by twice this limit.
     constexpr double slope_max = 1e3 * skew_max_ppm;
     if (!(std::abs(fitted) <= 2.0 * slope_max)) return best_alone;
     const double slope = std::clamp(fitted, -slope_max, slope_max);
@@ -169,7 +169,7 @@ ClockSync::Fit ClockSync::fit(base::TimePoint now) const
     return {now, best.offset + rounded(here), half_trip + rounded(2.0 * error), 1e-9 * slope};
 }
 
-/// Brings what is said nearer to what is found.
+/// Moves the reported offset toward the estimated one.
 void ClockSync::follow(base::TimePoint now)
 {
     const base::Duration apart = fit_.at_time(now) - said_;
@@ -185,7 +185,7 @@ std::optional<ClockEstimate> ClockSync::estimate() const
 {
     if (same_clock_ == SameClock::seen) return ClockEstimate{};
     if (!first_) return std::nullopt;
-    // The part that slewing has not reached yet is uncertain, too.
+    // The deviation that slewing has not corrected yet is also uncertain.
     const base::Duration behind = std::chrono::abs(fit_.at_time(said_at_) - said_);
     return ClockEstimate{said_, fit_.uncertainty + behind, 1e6 * fit_.skew};
 }

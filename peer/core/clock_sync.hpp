@@ -13,32 +13,34 @@ namespace hapnet::peer {
 
 /// A measurement of the remote's clock by one echoed message.
 struct ClockSample {
-    base::TimePoint sent;         // by us, our clock
-    base::TimePoint heard;        // by them, their clock
-    base::TimePoint answered;     // by them, their clock
-    base::TimePoint answer_heard; // by us, our clock
+    base::TimePoint sent;         // by this peer, on its own clock
+    base::TimePoint heard;        // by the remote, on its clock
+    base::TimePoint answered;     // by the remote, on its clock
+    base::TimePoint answer_heard; // by this peer, on its own clock
 };
 
-/// The relation of the remote's clock to ours.
+/// The relation of the remote's clock to this peer's clock.
 struct ClockEstimate {
-    base::Duration offset{};      // their clock minus ours, now
+    base::Duration offset{};      // the remote's clock minus this peer's, now
     base::Duration uncertainty{}; // half the least round trip, which bounds what asymmetry can
                                   // hide, and what the fit may err by
-    double skew_ppm = 0.0;        // how much faster their clock runs than ours
+    double skew_ppm = 0.0;        // how much faster the remote's clock runs
 };
 
-/// Estimates the remote's clock from echoes (NTP's offset, RFC 5905 section 8). Queueing delays
-/// both lengthen a round trip and spoil its offset, so of each second only the sample with the
-/// shortest round trip is kept, 64 seconds of them, and of these only those that are about as short
-/// as the shortest. A straight line through them, the shorter the weightier, gives offset and skew.
+/// Estimates the remote's clock from echoes (NTP's offset, RFC 5905 section 8). A queueing delay
+/// lengthens a round trip and falsifies its offset. So for each second only the sample with the
+/// shortest round trip is kept, for the last 64 seconds, and only samples about as short as the
+/// shortest are used. A straight line through them, in which shorter round trips have more weight,
+/// gives offset and skew.
 ///
-/// What it says never steps once it has settled, in the first two seconds: it follows by 500 us a
-/// second at most. A clock that jumps (a machine that slept, a virtual one that was moved) makes it
-/// doubt at the first sample, is recognised after eight seconds, and then it steps once.
+/// The estimate settles in the first two seconds. After that it never steps: it changes by at most
+/// 500 us a second. After a jump of a clock (of a machine that slept, or a virtual one that was
+/// moved), the estimate is in doubt from the first sample on. The jump is recognised after eight
+/// seconds, and then the estimate steps once.
 ///
-/// Sides that name the same boot share a clock, so their offset is zero. That is believed from the
-/// first sample that allows it on. Samples that rule it out end the belief: the first one at once,
-/// later eight in a row, as one may be damaged.
+/// Two peers that report the same boot share a clock, so their offset is zero. This is assumed from
+/// the first sample that is consistent with it. Inconsistent samples end the assumption: at first a
+/// single one does; later it takes eight in a row, as one may be damaged.
 class ClockSync {
 public:
     static constexpr base::Duration window{std::chrono::seconds{1}};
@@ -48,23 +50,25 @@ public:
     static constexpr double skew_max_ppm = 200.0; // crystals differ by about a tenth of this
     static constexpr std::size_t windows_for_skew = 8;
     static constexpr std::size_t windows_for_jump = 8;
-    /// Beyond half the round trip, which bounds what queues and asymmetry can do to an offset.
+    /// The least jump of a clock that is recognised, in addition to half the round trip, which is
+    /// the most that queues and asymmetry can shift an offset.
     static constexpr base::Duration jump_least{std::chrono::milliseconds{50}};
     static constexpr std::uint32_t samples_needed = 8; // consecutive samples that must agree
 
-    /// Ignores samples with a negative round trip or an offset of more than ten years.
+    /// Adds a sample. Ignores it if the round trip is negative or the offset exceeds ten years.
     void add(const ClockSample& sample);
-    /// The two name the same boot: their clocks are one, unless samples rule that out.
+    /// Notes that both peers report the same boot, so their clocks are one unless samples rule that
+    /// out.
     void set_same_clock() { same_clock_ = SameClock::claimed; }
 
     /// Returns nullopt before the first sample.
     [[nodiscard]] std::optional<ClockEstimate> estimate() const;
-    /// The number of jumps of the remote's clock.
+    /// Returns the number of jumps of the remote's clock.
     [[nodiscard]] std::uint32_t jumps() const { return jumps_; }
-    /// True from a sample that no queue explains, or a jump, until enough samples agree. Do not
-    /// predict from the estimate in this time.
+    /// True from a sample that no queue explains, or from a jump, until enough samples agree. Do
+    /// not use the estimate for prediction meanwhile.
     [[nodiscard]] bool is_in_doubt() const { return agreeing_left_ > 0; }
-    /// The estimate to predict from: nullopt before the first sample, and while in doubt.
+    /// Returns the estimate for prediction; nullopt before the first sample and while in doubt.
     [[nodiscard]] std::optional<ClockEstimate> trusted() const
     {
         return is_in_doubt() ? std::nullopt : estimate();
@@ -74,11 +78,11 @@ public:
 
 private:
     struct Window {
-        base::TimePoint at; // when its sample arrived
+        base::TimePoint at; // arrival of its sample
         base::Duration offset;
         base::Duration round_trip;
     };
-    /// The line through the windows.
+    /// The straight line through the windows.
     struct Fit {
         base::TimePoint when{};
         base::Duration offset{}; // offset at the time `when`
@@ -92,7 +96,8 @@ private:
         }
     };
 
-    /// Says if both sides have one clock: they do not, they claim to, or a sample has shown it.
+    /// The state of knowledge about a shared clock: no shared clock, reported by both peers, or
+    /// confirmed by a sample.
     enum class SameClock : std::uint8_t { no, claimed, seen };
 
     [[nodiscard]] bool shows_same_clock(const Window& sample);
@@ -108,10 +113,10 @@ private:
     std::optional<base::TimePoint> first_;
     std::optional<Window> open_; // window of the current second
     base::TimePoint open_since_;
-    std::array<Window, windows_max> closed_{}; // the newest last
+    std::array<Window, windows_max> closed_{}; // the newest is last
     std::size_t count_ = 0;
     Fit fit_;
-    base::Duration said_{}; // offset that estimate() gives
+    base::Duration said_{}; // offset that estimate() returns
     base::TimePoint said_at_;
     std::uint32_t jumps_ = 0;
     std::uint32_t agreeing_left_ = 0;

@@ -10,7 +10,7 @@ namespace hapnet::peer {
 namespace {
 
 constexpr double omni_force_n = 3.3;
-// The share of a device without force, which never reaches its limits.
+// The least share. A device without force gets it, and never reaches its limits.
 constexpr double least_share = 0.05;
 
 } // namespace

@@ -13,7 +13,7 @@ double product(const glm::dvec3& a, const glm::dvec3& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The part of a vector across a unit vector.
+/// Returns the component of a vector that is perpendicular to a unit vector.
 glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& unit)
 {
     return v - product(v, unit) * unit;

@@ -11,16 +11,16 @@ namespace hapnet::peer {
 
 namespace {
 
-// No session is longer than a program can be asked for (10^6 s): a start farther away is nonsense.
+// The longest session that can be requested is 10^6 s. A start that is farther away is invalid.
 constexpr base::Duration start_away_max{std::chrono::seconds{1'000'001}};
 
-// The most by which a message may overtake the one before.
+// The most by which a stamp may be ahead of the previous message's.
 constexpr base::Duration ahead_max{std::chrono::seconds{10}};
-// After this time without a newer message the next one counts as the newest, whatever its stamp: a
-// clock has jumped.
+// The time without a newer message after which the next one counts as the newest, whatever its
+// stamp is, because a clock must have jumped.
 constexpr base::Duration newest_for{std::chrono::seconds{1}};
 
-/// Rounded up, and 0 never: that says nothing.
+/// Rounds up, and never returns 0, which would mean that no length is given.
 std::uint32_t in_milliseconds(base::Duration length)
 {
     const auto whole = std::chrono::ceil<std::chrono::milliseconds>(length).count();
@@ -78,7 +78,7 @@ void Handshake::meet(const wire::Hello& hello)
     earlier_.reset();
     acknowledged_ = false;
     if (!session_) return;
-    // The remote was restarted: this one goes on and lets it join.
+    // The remote was restarted. This peer continues and lets it join.
     session_->number = number();
     session_->is_left = is_left();
     session_->joined_late = false;
@@ -108,7 +108,7 @@ void Handshake::agree(const wire::Hello& hello, base::TimePoint arrived)
     }
 }
 
-/// Both sides may know the start from other peers and announce it. Each acknowledges the other's.
+/// Both peers may know the start from others and announce it. Each acknowledges the other's start.
 void Handshake::agree_with_all(const wire::Hello& hello, base::TimePoint arrived)
 {
     if (!session_) {
@@ -122,7 +122,7 @@ void Handshake::agree_with_all(const wire::Hello& hello, base::TimePoint arrived
     asked_ = !owns_start_ || !acknowledged_ || knows_a_former_one;
 }
 
-/// Two sessions that began apart have met when the starts are not the same one.
+/// Detects if the remote is in another session that began separately: the starts then differ.
 void Handshake::compare_starts(const wire::Hello& hello, base::TimePoint arrived)
 {
     start_heard_ = hello.start;
@@ -135,8 +135,8 @@ void Handshake::compare_starts(const wire::Hello& hello, base::TimePoint arrived
     if (!is_over) earlier_ = Session{number(), start, hello.seed, length(), is_left(), true};
 }
 
-/// Returns the time by which the remote's start is later than the one known here; nullopt when they
-/// are the same, or cannot be compared.
+/// Returns the time by which the remote's start is later than the one known here; nullopt if they
+/// are equal or cannot be compared.
 std::optional<base::Duration> Handshake::later_there() const
 {
     const auto there = clock();
@@ -147,7 +147,7 @@ std::optional<base::Duration> Handshake::later_there() const
     return later;
 }
 
-/// A side that is in session says the length that was agreed on; so it stays as it is.
+/// A peer in a session announces the agreed length, so the length does not change.
 base::Duration Handshake::length() const
 {
     if (!remote_ || remote_->length_ms == 0) return self_.length;
@@ -208,7 +208,8 @@ void Handshake::on_echo(const std::optional<wire::Echo>& echo, base::TimePoint s
     const auto is_next = [&] {
         const base::Duration passed = arrived - last_heard_at_;
         if (std::chrono::abs(passed) > newest_for) return true;
-        // Their clock runs as fast as ours: a time far ahead is damaged, and would be the last.
+        // The remote's clock runs as fast as this one. A time far ahead is damaged, and no later
+        // message could be newer.
         const base::Duration ahead = sent - last_heard_->of;
         return ahead > base::Duration{0} && ahead <= passed + ahead_max;
     };

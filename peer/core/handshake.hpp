@@ -10,8 +10,8 @@
 
 namespace hapnet::peer {
 
-/// A peer's own description for the handshake. Id, scene, tick rate and task must suit the other
-/// side's.
+/// A peer's description of itself in the handshake. Its id, scene, tick rate and task must be
+/// compatible with those of the other peer.
 struct Introduction {
     std::uint16_t id = 1;
     std::uint32_t nonce = 1; // identifies this run of the program; unpredictable, not 0
@@ -20,62 +20,65 @@ struct Introduction {
     std::uint16_t tick_rate_hz = 1000;
     wire::TaskName task;
     base::Duration length{std::chrono::seconds{30}}; // length of the session: Settings::length
-    /// Hash of this machine's boot id; peers with equal ones share a clock. 0: unknown.
+    /// A hash of this machine's boot id. Peers with equal hashes share a clock. 0: unknown.
     std::uint32_t boot = 0;
     wire::HandModel hand{}; // a value of 0 is unknown
 };
 
-/// The session two peers have agreed on, as one of them sees it.
+/// The session that two peers have agreed on, from the point of view of one of them.
 struct Session {
     std::uint32_t number = 0;
     base::TimePoint start; // on this peer's clock
     std::uint64_t seed = 0;
-    base::Duration length{}; // the shorter of the lengths that the two peers were asked for
+    base::Duration length{}; // the shorter of the lengths requested of the two peers
     bool is_left = false;    // this peer has the lower id
-    /// This peer came to a session that was under way, and takes over its bodies.
+    /// True if this peer joined a running session, and takes over its bodies.
     bool joined_late = false;
 };
 
-/// Lets two peers find each other and agree on a start: hellos every 20 ms until both know it. The
-/// lower id sets the start one second after it learns that it was heard, and repeats the start
-/// until it is acknowledged. The remote joins when it hears of the start, even if that is late. A
-/// peer that restarts meets one that is in session already and joins that session. Feed with
-/// on_hello(), drain with hello(), and read session() after either. Among more than two Others
-/// decides when to start, and every peer that knows the start tells it to those that it meets.
+/// Lets two peers find each other and agree on a start. Both send hellos every 20 ms until both
+/// know the start. The peer with the lower id sets the start to one second after it learns that it
+/// was heard, and repeats it until it is acknowledged. The remote joins when it learns of the
+/// start, even if that is late. A peer that restarts joins the session that the other peer is still
+/// in. Feed it with on_hello(), drain it with hello(), and read session() after either. Among more
+/// than two peers, Others decides when to start, and every peer that knows the start sends it to
+/// those that it meets.
 class Handshake {
 public:
     static constexpr base::Duration hello_every{std::chrono::milliseconds{20}};
     static constexpr base::Duration start_after{std::chrono::seconds{1}};
-    /// The time without an answer after which a side in session says hello ten times as often: at
-    /// 97 % loss one in five would otherwise learn of the start more than a second late.
+    /// The time without an answer after which a peer in a session sends hellos ten times as often.
+    /// Otherwise, at 97 % loss one peer in five would learn of the start more than a second late.
     static constexpr base::Duration answer_within{std::chrono::milliseconds{500}};
     static constexpr base::Duration hello_every_unanswered{std::chrono::milliseconds{2}};
 
-    /// The peer that sets the start: the lower id of the two, or all of the session by tell().
+    /// The source of the start: the peer with the lower id of the two, or the whole session by
+    /// tell().
     enum class StartSetBy : std::uint8_t { lower_id, session };
     explicit Handshake(const Introduction& introduction, StartSetBy by = StartSetBy::lower_id)
         : self_{introduction}, set_by_{by}
     {}
 
-    /// While the run that was met is heard, the hello of any other run is ignored: it may be
-    /// forged. A new run keeps saying hello until the former one has fallen silent.
+    /// While the known run of the remote is heard, hellos of any other run are ignored, because
+    /// they may be forged. A new run repeats its hello until the previous run has fallen silent.
     enum class Known : std::uint8_t { silent, heard };
-    /// The number of times in a row that another start must come to replace the one agreed on: the
-    /// first may have been damaged. In a pair it can do so only before the session has begun.
+    /// The number of times in a row that a different start must be received before it replaces the
+    /// agreed one, because one message may be damaged. In a pair this is possible only before the
+    /// session has begun.
     static constexpr int starts_needed = 3;
 
-    /// Takes a hello in. Returns why the two cannot play together, if so.
+    /// Takes a hello. Returns the reason if the two cannot play together.
     [[nodiscard]] std::optional<wire::ByeReason>
     on_hello(const wire::Hello& hello, base::TimePoint arrived, Known known = Known::silent);
 
-    /// Takes the clock echo of any message of the remote.
+    /// Takes the clock echo of any message from the remote.
     void on_echo(const std::optional<wire::Echo>& echo, base::TimePoint sent,
                  base::TimePoint arrived);
 
-    /// A state of this session arrived: the remote knows the start.
+    /// Notes that a state of this session has arrived, which shows that the remote knows the start.
     void on_state() { acknowledged_ = true; }
-    /// Says hello once more although all seems to be settled; the remote answers where it knows
-    /// better.
+    /// Requests another hello although everything seems to be settled. The remote answers if it
+    /// knows otherwise.
     void ask() { asked_ = true; }
 
     [[nodiscard]] bool is_hello_due(base::TimePoint now) const
@@ -85,45 +88,48 @@ public:
         const base::Duration every = is_unanswered(now) ? hello_every_unanswered : hello_every;
         return (!settled || asked_) && !(last_hello_ && now - *last_hello_ < every);
     }
-    /// The hello that is due, if one is. `heard`: the peers that this one hears, bit i for id i.
+    /// Returns the hello that is due, if any. `heard` lists the peers that this one hears: bit i
+    /// for id i.
     [[nodiscard]] std::optional<wire::Hello> hello(base::TimePoint now, std::uint32_t heard);
 
-    /// Takes over the start, seed and length that all have agreed on, and sends them to the remote,
-    /// which must have been met. A remote that is met `late` learns that it joins. A changed start
-    /// is repeated until the remote repeats it, too.
+    /// Takes over the start, seed and length of the whole session, and sends them to the remote,
+    /// which must have been met. `late` tells the remote that it joins a running session. A changed
+    /// start is repeated until the remote repeats it.
     void tell(const Session& agreed, bool late);
-    /// Among more than two: the session that the remote is in, when it has told `starts_needed`
-    /// times that this began earlier than the one known here, and it is not over. See `is_same()`.
+    /// Returns, with more than two peers, the session of the remote, if it has reported
+    /// `starts_needed` times that it began earlier than the session known here, and it is not over.
+    /// See `is_same()`.
     [[nodiscard]] const std::optional<Session>& earlier() const { return earlier_; }
-    /// True if two starts count as one, by their distance and the uncertainty of the clocks: a
-    /// start that came by way of another peer was converted three times, and each clock has moved.
+    /// True if two starts that are `apart` count as equal, given the uncertainty of the clocks. A
+    /// start that came through another peer was converted three times, and each clock has drifted.
     [[nodiscard]] static bool is_same(base::Duration apart, base::Duration uncertainty)
     {
         return std::chrono::abs(apart) <= std::chrono::milliseconds{20} + 4 * uncertainty;
     }
 
-    /// The clock echo for the next message to the remote.
+    /// Returns the clock echo for the next message to the remote.
     [[nodiscard]] std::optional<wire::Echo> echo(base::TimePoint now) const;
 
     [[nodiscard]] const std::optional<Session>& session() const { return session_; }
-    /// The remote's clock, to predict from: nullopt before the first echo, and while in doubt.
+    /// Returns the remote's clock for prediction; nullopt before the first echo, and while in
+    /// doubt.
     [[nodiscard]] std::optional<ClockEstimate> clock() const { return clock_.trusted(); }
-    /// The measurements behind clock().
+    /// Returns the measurements behind clock().
     [[nodiscard]] const ClockSync& clock_sync() const { return clock_; }
-    /// True if the remote has been heard in this run of it.
+    /// True if the present run of the remote has been heard.
     [[nodiscard]] bool has_met() const { return remote_.has_value(); }
-    /// The remote's id; 0 before it was met.
+    /// Returns the remote's id; 0 before it was met.
     [[nodiscard]] std::uint16_t id() const { return remote_ ? remote_->id : std::uint16_t{0}; }
-    /// The remote's hand, as far as it has described it.
+    /// Returns the remote's description of its hand. Properties that it has not given are 0.
     [[nodiscard]] wire::HandModel hand() const
     {
         return remote_ ? remote_->hand : wire::HandModel{};
     }
-    /// True if it has heard this run of us.
+    /// True if the remote has heard the present run of this peer.
     [[nodiscard]] bool is_heard_there() const { return remote_ && remote_->hears_us; }
-    /// The peers that the remote hears, bit i for id i.
+    /// Returns the peers that the remote hears: bit i for id i.
     [[nodiscard]] std::uint32_t heard_there() const { return remote_ ? remote_->heard : 0; }
-    /// The session's length as far as the two are concerned: the shorter one.
+    /// Returns the shorter of the session lengths that the two peers request.
     [[nodiscard]] base::Duration length() const;
 
 private:
@@ -137,7 +143,7 @@ private:
     };
 
     [[nodiscard]] std::optional<wire::ByeReason> refusal_of(const wire::Hello& hello) const;
-    /// True if the remote should long have known the start, and does not seem to.
+    /// True if the remote should have learnt of the start long ago, but seems not to know it.
     [[nodiscard]] bool is_unanswered(base::TimePoint now) const
     {
         return session_ && owns_start_ && !acknowledged_ &&
@@ -158,19 +164,19 @@ private:
     Introduction self_;
     StartSetBy set_by_;
     std::optional<RemotePeer> remote_;
-    base::TimePoint met_at_; // when this run of the remote was met
+    base::TimePoint met_at_; // when this run of the remote was first heard
     ClockSync clock_;
-    std::optional<wire::Echo> last_heard_; // message to echo; `age` unused, see last_heard_at_
+    std::optional<wire::Echo> last_heard_; // the message to echo, without `age`: see last_heard_at_
     base::TimePoint last_heard_at_;
     std::optional<Session> session_;
     bool owns_start_ = false;                    // this side decides the start
     bool stayed_ = false;                        // this side was in session before the remote
     bool acknowledged_ = false;                  // the remote knows the start
-    bool asked_ = true;                          // a hello is wanted although all is settled
+    bool asked_ = true;                          // a hello is requested although all is settled
     std::optional<base::TimePoint> start_heard_; // the remote's start, on its clock
-    std::optional<base::TimePoint> other_start_; // another start that the remote told
+    std::optional<base::TimePoint> other_start_; // another start that the remote has sent
     int times_other_start_ = 0;
-    bool starts_differ_ = false;     // with more than two peers: the two tell different starts
+    bool starts_differ_ = false;     // with more than two peers: their starts differ
     std::optional<Session> earlier_; // earlier session that the remote is in
     std::optional<base::TimePoint> last_hello_;
 };

@@ -52,8 +52,9 @@ void Intention::say(wire::State& state, base::Position hip, base::Velocity hip_v
     state.intention_velocity = velocity();
 }
 
-/// Friction leaves a set and not a point: a hand that sticks says nothing of where in it it means
-/// to be, and would seem to mean to move with the force if it were taken for the point.
+/// With friction, the intention is a set and not a point. A hand that sticks shows nothing about
+/// where in the set it intends to be. If the estimate were taken for the point, the intention would
+/// seem to move with the force.
 glm::dvec3 Intention::within_friction(const glm::dvec3& raw) const
 {
     const double reach_m = hand_.friction_n / hand_.stiffness_n_per_m;

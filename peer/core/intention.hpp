@@ -10,30 +10,30 @@
 
 namespace hapnet::peer {
 
-/// A hand with its device as seen from the scene: a mass with damping, drawn by a spring to where
-/// the person means it to be, and Coulomb friction.
+/// A model of a hand with its device as the scene sees it: a mass with damping and Coulomb
+/// friction, drawn by a spring to the place where the person intends to be.
 struct HandDynamics {
     double mass_kg = 0.22;
     double damping_ns_per_m = 7.0;
-    /// Stiff enough for relaxed, nominal and firm grips: coupled to a contact of 500 N/m, a model
-    /// that is wrong by a factor of two still holds.
+    /// The stiffness suits relaxed, nominal and firm grips. With a contact of 500 N/m, the model
+    /// still holds if it is wrong by a factor of two.
     double stiffness_n_per_m = 300.0;
     double friction_n = 0.0;
 
     friend bool operator==(const HandDynamics&, const HandDynamics&) = default;
 };
 
-/// Returns the dynamics of a hand as its model describes it. Missing values take the usual ones.
+/// Returns the dynamics that a hand model describes. Missing values get defaults.
 [[nodiscard]] HandDynamics dynamics_of(const wire::HandModel& said);
 
-/// Returns the hand model that a peer sends in its hello. It has the known properties of the
+/// Returns the hand model that a peer sends in its hello. It contains the known properties of the
 /// device. Those of the person are unknown.
 [[nodiscard]] wire::HandModel hand_model_of(const device::Capabilities& capabilities);
 
-/// The place where a hand means to be, as its own peer estimates it from its motion and from the
-/// force on it: partners predict each other's goal, not each other's place (Takagi et al., Nature
-/// Human Behaviour 2017). It is found here, where every sample is known, since a receiver at 97 %
-/// loss has too few to filter.
+/// The place where a hand intends to be. Its own peer estimates it from the motion of the hand and
+/// the force on it, because partners predict each other's goal and not each other's position
+/// (Takagi et al., Nature Human Behaviour 2017). The sender computes it, because it knows every
+/// sample, while a receiver at 97 % loss has too few of them to filter.
 class Intention {
 public:
     explicit Intention(const HandDynamics& hand) : hand_{hand} {}
@@ -41,13 +41,14 @@ public:
     struct Sample {
         base::Position hip;
         base::Velocity velocity;
-        base::Force force; // force on the hand that the device was told in the tick before
+        base::Force force; // force sent to the device in the previous tick
     };
-    /// Once a tick. A hand that is not held has no intention: reset() then.
+    /// Adds the sample of a tick. Call reset() instead for a hand that is not held, which has no
+    /// intention.
     void add(const Sample& sample, base::TimePoint at);
     void reset() { is_known_ = false; }
 
-    /// The HIP's own place while nothing is known.
+    /// True if the intention is known. Otherwise it equals the position of the HIP.
     [[nodiscard]] bool is_known() const { return is_known_; }
     [[nodiscard]] base::Position place() const { return {filter_.value()}; }
     [[nodiscard]] base::Velocity velocity() const { return {filter_.slope()}; }
@@ -57,11 +58,12 @@ public:
 private:
     [[nodiscard]] glm::dvec3 within_friction(const glm::dvec3& raw) const;
 
-    /// Removes the grain of the device's positions from the velocity, and the steps that 97 % loss
-    /// leaves in the remote's pushes from the intention.
+    /// Time constants of filters. The first removes the effect of the device's resolution from the
+    /// velocity. The second removes from the intention the steps that 97 % loss causes in the
+    /// remote's forces.
     static constexpr double velocity_filter_s = 0.015;
     static constexpr double filter_s = 0.020;
-    /// Slower than this, friction may hold the hand.
+    /// The speed below which friction may hold the hand.
     static constexpr double slides_above_m_per_s = 0.004;
 
     HandDynamics hand_;

@@ -10,7 +10,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// Ids above 31 have no bit: only those of a pair may be.
+/// Ids above 31 have no bit. They are possible only in a pair.
 std::uint32_t bit_of(std::uint16_t id) { return id < 32 ? std::uint32_t{1} << id : 0; }
 
 } // namespace
@@ -55,8 +55,8 @@ bool Others::hear_each_other(const Remote& a, const Remote& b) const
            (b.handshake().heard_there() & bit_of(a.id())) != 0;
 }
 
-/// True if this peer is to set the start: those that it waits for hear each other, and it has the
-/// lowest id of them.
+/// True if this peer has to set the start: the peers that it waits for hear each other, and it has
+/// the lowest id of them.
 bool Others::can_start(base::TimePoint now) const
 {
     std::size_t present = 1;

@@ -12,7 +12,7 @@
 namespace hapnet::peer {
 
 /// A first-in-first-out queue of at most `capacity` values that never allocates. When it is full,
-/// the oldest value makes room: messages age, and the newest are worth most.
+/// the oldest value is dropped, because the newest messages are the most useful.
 template <typename Value, std::size_t capacity>
 class Outbox {
 public:
@@ -20,7 +20,7 @@ public:
     {
         put([&value] { return value; });
     }
-    /// Puts the value that make() returns. It is made in place.
+    /// Adds the value that make() returns, constructed in place.
     template <std::invocable Make>
     void put(Make make)
     {
@@ -30,7 +30,7 @@ public:
         ++size_;
     }
 
-    /// The oldest, which stays where it is until the next put(); nullptr: there is none.
+    /// Takes the oldest value, which stays valid until the next put(); nullptr if there is none.
     [[nodiscard]] const Value* take()
     {
         if (size_ == 0) return nullptr;

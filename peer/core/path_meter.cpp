@@ -27,7 +27,7 @@ void PathMeter::on_state(const wire::State& state, base::TimePoint arrived,
 
 void PathMeter::on_newest(const wire::State& state, base::TimePoint arrived, base::Duration ahead)
 {
-    // Among states that arrive at the same time only the newest has an age.
+    // Among states that arrive at the same time, only the newest has an age.
     if (age_.newest_arrived() >= arrived) age_.pause();
     age_.add(arrived, (arrived - state.sent) - ahead);
 }
@@ -54,7 +54,7 @@ PathsReport PathMeter::report() const
     };
     PathsReport report{arrivals_.counts(), {}, path_of(in_), path_of(out_)};
     if (const auto sent = static_cast<double>(report.arrived.sent); sent > 0.0) {
-        // Duplicates that came too late to tell count as received.
+        // Duplicates that arrived too late to be detected count as received.
         const double missing = sent - static_cast<double>(report.arrived.received);
         report.loss = std::max(0.0, missing) / sent;
     }

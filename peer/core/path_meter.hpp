@@ -17,33 +17,33 @@
 
 namespace hapnet::peer {
 
-/// The effect of the path on the states of one direction. Delays and ages need the remote's clock:
-/// while it is unknown or in doubt nothing is added to them. nullopt: nothing was measured.
+/// The effect of the path on the states of one direction. Delays and ages need the remote's clock,
+/// so none are added while it is unknown or in doubt. nullopt: not measured.
 struct PathReport {
     std::optional<base::Quantiles> delay;
-    /// |difference of the delays| of states that came one after another (RFC 3393).
+    /// |difference of the delays| of consecutive states (RFC 3393).
     std::optional<base::Quantiles> jitter;
-    /// Age of the newest state that has arrived.
+    /// The age of the newest state that has arrived.
     base::Age age;
 };
 
-/// Both directions between this peer and another.
+/// The reports of both directions between this peer and another.
 struct PathsReport {
     base::ArrivalCounts arrived; // states of the other peer
-    std::optional<double> loss;  // share of arrived.sent that never came, 0 to 1
+    std::optional<double> loss;  // share of arrived.sent that was lost, 0 to 1
     PathReport in;
-    PathReport out; // for the states that were the newest at the other peer when it sent a message
+    PathReport out; // for states that were the newest at the other peer when it sent
 };
 
-/// Measures both directions between this peer and another from the states that arrive, as it goes,
-/// in 80 KiB: adding never allocates.
+/// Measures both directions between this peer and another from the states that arrive, in 80 KiB.
+/// Adding never allocates.
 class PathMeter {
 public:
-    /// The number of newer states after which a duplicate counts as received.
+    /// The number of newer states after which a duplicate is counted as a new arrival.
     static constexpr std::size_t looks_back = 1024;
 
-    /// A state of the session arrived, whether it is used or not. `clock`: the remote's, as far
-    /// as it is known.
+    /// Adds a state of the session that has arrived, even if it is not used. `clock` is the
+    /// remote's clock, if it is known.
     void on_state(const wire::State& state, base::TimePoint arrived,
                   const std::optional<ClockEstimate>& clock);
 

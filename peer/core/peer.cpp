@@ -81,7 +81,7 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
     const Remote::Greeting greeting = other.on_hello(hello, arrived);
     if (greeting.refused) {
         if (greeting.had_session) {
-            other.post(wire::Bye{0, *greeting.refused}); // this peer's session goes on without it
+            other.post(wire::Bye{0, *greeting.refused}); // this session continues without it
         } else {
             refuse({*greeting.refused, hello.nonce}, arrived);
         }
@@ -95,13 +95,14 @@ void Peer::on_message(const wire::Hello& hello, base::TimePoint arrived, std::si
         scene_.await_bodies(session()->joined_late);
         tell(Event::agreed);
     } else if (greeting.in_session && greeting.had_session) {
-        // No other peer would tell where the body is.
+        // In a pair no other peer can send the place of the body, so the wait depends on the
+        // new session.
         if (others_.is_pair()) scene_.await_bodies(session()->joined_late);
         tell(Event::restarted, &other);
     }
 }
 
-/// The run of one of the others has ended.
+/// Forgets the run of another peer, which has ended.
 void Peer::forget(std::size_t other)
 {
     const auto forget = [&](auto& algorithm) {
@@ -138,7 +139,7 @@ void Peer::on_message(const wire::State& state, base::TimePoint arrived, std::si
     }
 }
 
-/// Gives the algorithm the states that were due by now.
+/// Passes the states that are due to the algorithm.
 void Peer::play_out(base::TimePoint now)
 {
     for (std::size_t from = 0; from < others_.size(); ++from) {
@@ -266,7 +267,8 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
                  .number = ticks_played_++,
                  .poses = scene_.poses()},
                 input);
-    // The governor's own fade runs along with the others': zero when one of them counts as lost.
+    // The governor fades the force at the same time as the forces of the others fade. It is zero
+    // when one of them counts as lost.
     tick.permitted =
         usable && scene_.is_known() && others_.are_fresh(now) && tick.phase == Phase::running;
     if (usable) {
@@ -278,8 +280,8 @@ void Peer::play(Tick& tick, base::TimePoint now, const Hand& hand)
     say_states(tick, now, usable ? hand : none);
 }
 
-/// Sends the same state to each of the others, except for what belongs to the two of them: numbers
-/// and clock echo.
+/// Sends the same state to each of the others, except for the numbers and the clock echo, which
+/// differ for each pair.
 void Peer::say_states(Tick& tick, base::TimePoint now, const Hand& hand)
 {
     wire::State state;

@@ -18,90 +18,90 @@
 
 namespace hapnet::peer {
 
-/// An event that a person should be told of.
+/// An event to report to a person.
 enum class Event : std::uint8_t {
     met,       // a remote answers
     agreed,    // the start is known
     started,   // the session has begun
-    joined,    // the session was under way: the bodies are where the others have them
+    joined,    // a running session was joined: the bodies are as the others have them
     lost,      // a remote was silent until its forces had faded to zero
-    back,      // a remote is heard again
+    back,      // a remote that was lost is heard again
     restarted, // a remote came back as a new run
     left,      // a remote said goodbye
     refused,   // the two cannot play together: see refusal()
     hands_off,
     ended,
     stopped,      // ended before there was a session
-    no_body,      // states come, but none that tells where the body is
+    no_body,      // states arrive, but none contains a body
     clock_jumped, // a remote's clock jumped against this peer's
 };
 
 /// Counters of received messages, and of those that could not be used.
 struct Counters {
-    std::uint64_t states = 0; // states that were taken
+    std::uint64_t states = 0; // states that were used
     std::uint64_t hellos = 0;
     std::uint64_t byes = 0;
     std::uint64_t outdated = 0; // states older than one already known, or duplicates
     std::uint64_t other_session = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_version = 0;
-    std::uint64_t implausible = 0;   // states beyond the scene's reach, or numbered ahead of time
+    std::uint64_t implausible = 0;   // states beyond the scene's reach, or with too high a number
     std::uint64_t unusable_hand = 0; // ticks in which the device's sample was not usable
     std::uint64_t played_late = 0;   // states that arrived after their playout time
     std::uint64_t sent = 0;
-    base::ByName<SendCause, std::uint64_t> sending{}; // ticks of all sessions, by cause
+    base::ByName<SendCause, std::uint64_t> sending{}; // ticks of all sessions by cause
 };
 
-/// An event, and the id of the other that it is about; 0: it is about all, or that one's id is not
+/// An event, and the id of the other peer that it is about; 0: it is about all, or the id is not
 /// known.
 struct Notice {
     Event event = Event::met;
     std::uint16_t about = 0;
 };
 
-/// One peer without device, socket or clock: its copy of the scene, its hand, what it knows of
-/// the others, and the session with them. They share the movable bodies of the scene. Call
-/// on_datagram() for what arrives, tick() once per millisecond, and then poll() for each of the
-/// others and notice() until they are empty.
+/// One peer without device, socket or clock: its copy of the scene, its hand, its knowledge of the
+/// others, and the session with them. The movable bodies of the scene are shared. Call
+/// on_datagram() for each datagram that arrives and tick() once per millisecond. After that, call
+/// poll() for each of the others and notice() until they are empty.
 class Peer {
 public:
     static constexpr base::Duration hands_off_length{std::chrono::seconds{3}};
 
-    /// The scene must be one that shared_bodies() and World::freeze() accept.
+    /// `settings.scene` must be accepted by shared_bodies() and World::freeze().
     explicit Peer(const Settings& settings);
 
-    /// `from`: which of the others sent it, in the order of the roster.
+    /// `from` is the index of the sender among the others, in the order of the roster.
     void on_datagram(std::span<const std::byte> datagram, base::TimePoint arrived,
                      std::size_t from = 0);
-    /// The result stays until the next call.
+    /// Plays one tick. The result is valid until the next call.
     const Tick& tick(base::TimePoint now, const Hand& hand);
-    /// The outcome of the last tick().
+    /// Returns the result of the last tick().
     [[nodiscard]] const Tick& last() const { return tick_; }
 
-    /// The next datagram for one of the others, valid until on_datagram() or tick(); nullptr: there
-    /// is none.
+    /// Returns the next datagram for one of the others, valid until on_datagram() or tick();
+    /// nullptr if there is none.
     [[nodiscard]] const wire::Datagram* poll(std::size_t to = 0) { return others_[to].poll(); }
     /// Takes the next notice for a person; nullptr: there is none.
     [[nodiscard]] const Notice* notice() { return notices_.take(); }
 
-    /// Ends the session: byes follow, then finished() holds.
+    /// Ends the session: sends byes, after which finished() is true.
     void leave(wire::ByeReason reason);
-    /// True if all byes are sent: this peer will send nothing more.
+    /// True if all byes have been sent. This peer will send nothing more.
     [[nodiscard]] bool finished() const { return farewell_.is_finished(); }
 
     [[nodiscard]] const scene::World& world() const { return scene_.world(); }
-    /// The shared bodies: every movable body of the scene, by their ids.
+    /// Returns the shared bodies: every movable body of the scene, sorted by id.
     [[nodiscard]] std::span<const SharedBody> shared() const { return scene_.shared(); }
-    /// The owner of the i-th shared body, whose copy counts: see SharedPoses::owner(). 0 where only
-    /// one body is shared and does not turn.
+    /// Returns the owner of the i-th shared body, whose copy is authoritative: see
+    /// SharedPoses::owner(). It is 0 if only one body is shared and it does not turn.
     [[nodiscard]] std::uint16_t owner(std::size_t body) const
     {
         const SharedPoses* const poses = scene_.poses();
         return poses != nullptr ? poses->owner(body) : std::uint16_t{0};
     }
-    /// The first shared body in this copy of the scene.
+    /// Returns the state of the first shared body in this copy of the scene.
     [[nodiscard]] scene::BodyState body() const { return world().body(scene_.body()); }
-    /// Position and velocity of the first shared body.
+    /// Returns the position of the first shared body. velocity() returns its velocity.
     [[nodiscard]] base::Position position() const { return world().position(scene_.body()); }
     [[nodiscard]] base::Velocity velocity() const { return world().velocity(scene_.body()); }
     [[nodiscard]] const std::optional<Session>& session() const { return others_.session(); }
@@ -113,25 +113,25 @@ public:
     [[nodiscard]] const Algorithm& algorithm() const { return settings_.algorithm; }
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_alone() const { return others_.are_gone(); }
-    /// Its place among all in the order of their ids, from 0: the 1st, 3rd, ... hand acts as A, the
-    /// others as B.
+    /// Returns the rank of this peer among all peers sorted by id, from 0. The 1st, 3rd, ... hand
+    /// acts as A, the others as B.
     [[nodiscard]] std::size_t rank() const { return others_.rank(); }
     [[nodiscard]] bool is_left() const { return rank() % 2 == 0; }
-    /// This peer's share of its side: one divided by the number of peers that act there.
+    /// Returns this peer's share of its side: one divided by the number of peers on that side.
     [[nodiscard]] double share_of_side() const
     {
         const std::size_t all = others().size() + 1;
         return 1.0 / static_cast<double>(is_left() ? all - all / 2 : all / 2);
     }
     [[nodiscard]] std::optional<wire::ByeReason> refusal() const { return farewell_.refusal(); }
-    /// Time from the start until the hands let go.
+    /// Returns the time from the start until the hands let go.
     [[nodiscard]] base::Duration hands_on() const { return hands_on_of(length()); }
-    /// Time from the start until the hands let go in a session of this length.
+    /// Returns the time from the start until the hands let go in a session of this length.
     [[nodiscard]] static base::Duration hands_on_of(base::Duration length)
     {
         return length - std::min(hands_off_length, length / 2);
     }
-    /// The length that was agreed on. Before that, the length that this peer was asked for.
+    /// Returns the agreed length. Before the agreement, returns the length requested of this peer.
     [[nodiscard]] base::Duration length() const
     {
         return session() ? session()->length : settings_.length;
@@ -156,7 +156,7 @@ private:
     Settings settings_;
     Others others_;
     SceneCopy scene_;
-    Intention intention_; // where this peer's hand means to be
+    Intention intention_; // where this peer's hand intends to be
     SendGate gate_;
     Farewell farewell_;
     Outbox<Notice, 32> notices_;

@@ -105,7 +105,7 @@ void PlayoutBuffer::drop_oldest()
     --count_;
 }
 
-/// The lowest bin above which no more than the share of late states lies.
+/// Finds the lowest bin above which at most the share of late states lies.
 void PlayoutBuffer::settle_quantile()
 {
     const auto allowed = static_cast<std::size_t>(late_share * static_cast<double>(count_));
@@ -113,7 +113,7 @@ void PlayoutBuffer::settle_quantile()
     while (quantile_ > 0 && above_ + bins_[quantile_] <= allowed) above_ += bins_[quantile_--];
 }
 
-/// The lower edge of its bin, so that a path without jitter has no wait.
+/// Returns the lower edge of the bin, so that a path without jitter causes no wait.
 base::Duration PlayoutBuffer::quantile() const
 {
     return origin_ + static_cast<base::Duration::rep>(quantile_) * step;

@@ -14,52 +14,55 @@
 
 namespace hapnet::peer {
 
-/// When a state that has arrived is given to the algorithm: at once, or by a buffer that takes the
-/// jitter out of the path.
+/// The time at which a received state is given to the algorithm: at once, or through a buffer that
+/// removes the jitter of the path.
 enum class Playout : std::uint8_t { none, adaptive };
 constexpr auto names_of(base::Tag<Playout> /*enum*/) { return base::names("none", "adaptive"); }
 
-/// Buffer that plays states as evenly as they were sent: each at its stamp plus a transit that all
-/// but 1 % of the last states have kept. The transit grows at once and shrinks by 1 % of the time,
-/// as in adaptive playout of speech (R. Ramjee et al., Adaptive playout mechanisms for packetized
-/// audio applications in wide-area networks, INFOCOM 1994), with a quantile in place of their
-/// estimate, as in S. B. Moon et al., Packet audio playout delay adjustment, Multimedia Systems 6
-/// (1998). It takes no memory after its construction.
+/// A buffer that plays states as evenly as they were sent. Each is played at its stamp plus a
+/// transit time that all but 1 % of the last states did not exceed. The transit time grows at once
+/// and shrinks by 1 % of the time, as in adaptive playout of speech (R. Ramjee et al., Adaptive
+/// playout mechanisms for packetized audio applications in wide-area networks, INFOCOM 1994). Their
+/// estimate is replaced by a quantile, as in S. B. Moon et al., Packet audio playout delay
+/// adjustment, Multimedia Systems 6 (1998). It allocates no memory after its construction.
 class PlayoutBuffer {
 public:
-    /// The share of states that may come after their playout time.
+    /// The share of states that may arrive after their playout time.
     static constexpr double late_share = 0.01;
-    /// The transit follows from this many states at most, sent within `window_age`.
+    /// The largest number of states that determine the transit time. They were sent within
+    /// `window_age`.
     static constexpr std::size_t window = 2000;
     static constexpr base::Duration window_age{std::chrono::seconds{10}};
     static constexpr base::Duration step{std::chrono::microseconds{100}}; // bin width of transits
     static constexpr std::size_t steps = 4096;
-    /// A path counts as a new one if it becomes faster by more than `faster_max`, or slower than
-    /// all steps in most of the last states, of which there are at least `moved_after`.
+    /// A path counts as a new one if it becomes faster by more than `faster_max`. It also does if
+    /// it becomes slower than all steps in most of the last states, of which there are at least
+    /// `moved_after`.
     static constexpr base::Duration faster_max{std::chrono::milliseconds{100}};
     static constexpr std::size_t moved_after = 100;
     static constexpr double shrinks_by = 0.01; // decrease of the transit per time between stamps
-    /// No state waits longer than this, and no more states than this wait.
+    /// The longest wait of a state, and the largest number of states that wait.
     static constexpr base::Duration wait_max{std::chrono::milliseconds{200}};
     static constexpr std::size_t waiting_max = 256;
 
     PlayoutBuffer();
 
-    /// Takes a state that arrived then. True if it came in time, to one step; the first one does.
+    /// Adds a state with its arrival time. Returns true if it arrived in time, within one step; the
+    /// first one always does.
     bool put(const wire::State& state, base::TimePoint arrived);
 
     struct Played {
         wire::State state;
-        base::TimePoint at; // when it was due, or arrived if that was later
+        base::TimePoint at; // due time, or arrival if that was later
     };
-    /// The next state that is due by now, in the order of the stamps; nullopt: none.
+    /// Returns the next state that is due, in the order of the stamps; nullopt if there is none.
     [[nodiscard]] std::optional<Played> next(base::TimePoint now);
 
-    /// The time from a state's stamp, on the sender's clock, to its playout on this one's; nullopt
-    /// before the first state.
+    /// Returns the time from a state's stamp, on the sender's clock, to its playout, on this peer's
+    /// clock; nullopt before the first state.
     [[nodiscard]] std::optional<base::Duration> transit() const;
 
-    /// Drops what waits and forgets the path.
+    /// Drops the waiting states and forgets the path.
     void forget();
 
 private:

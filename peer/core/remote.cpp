@@ -37,7 +37,8 @@ Remote::Greeting Remote::on_hello(const wire::Hello& hello, base::TimePoint arri
 
 void Remote::begin_session(base::TimePoint now)
 {
-    // A late hello of an earlier run may make us change over and back: then count on.
+    // A late hello of an earlier run may make this peer switch to it and back. Counting then
+    // continues.
     former_ = std::exchange(current_, session()->number == former_.number
                                           ? former_
                                           : Numbering{.number = session()->number});
@@ -61,8 +62,8 @@ void Remote::join(const Session& agreed, bool late, base::TimePoint now)
 
 bool Remote::can_be_numbered(const wire::State& state, base::TimePoint arrived) const
 {
-    // One state a tick since the start; the slack is for clocks and starts that differ. A damaged
-    // number that was believed would make all that follows look outdated.
+    // There is one state a tick since the start. The tolerance covers clocks and starts that
+    // differ. If a damaged number were accepted, all later states would look outdated.
     const auto ticks = std::max<base::Duration::rep>(0, (arrived - session()->start) / tick_);
     const auto most = static_cast<std::uint32_t>(
         std::min<base::Duration::rep>(ticks + sequence_slack, UINT32_MAX));
@@ -100,7 +101,7 @@ Remote::Heard Remote::on_state(const wire::State& state, base::TimePoint at)
     return heard;
 }
 
-/// True once, when something on the path lets only the shorter messages through.
+/// Returns true once, if something on the path lets only the shorter messages through.
 bool Remote::misses_body(const wire::State& state, base::TimePoint arrived)
 {
     if (!state.bodies.empty()) {
@@ -161,7 +162,7 @@ void Remote::take_bodies(const wire::State& state)
         std::size_t i = 0;
         while (i < count_ && bodies_[i].body != body.body) ++i;
         if (i == count_) {
-            if (count_ == bodies_.size()) continue; // no honest peer tells of more bodies
+            if (count_ == bodies_.size()) continue; // no honest peer sends more bodies
             bodies_[count_] = {};
             bodies_[count_++].body = body.body;
         }

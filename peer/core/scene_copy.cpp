@@ -15,8 +15,9 @@ namespace hapnet::peer {
 
 namespace {
 
-// The limits of places and velocities that the others tell: this many times the distance of the
-// scene's farthest body from the origin, and the least time in which all of that can be crossed.
+// The limits of positions and velocities in the others' messages. A position is limited to this
+// many times the distance of the scene's farthest body from the origin. The velocity limit follows
+// from the least time in which all of that can be crossed.
 constexpr double reach_of_scene = 8.0;
 constexpr double reach_least_m = 1.0;
 constexpr double crossing_s = 0.1;
@@ -83,7 +84,7 @@ SceneCopy::SceneCopy(const Settings& settings)
       effects_(shared_.size())
 {}
 
-/// The share of the force on the hand that may be rendered.
+/// Returns the share of the force on the hand that may be rendered.
 double SceneCopy::rendered_share(base::Duration late) const
 {
     const double tick_s = base::to_seconds(tick_ + 2 * late); // a force held for T is T / 2 late
@@ -172,8 +173,8 @@ void SceneCopy::move(Tick& tick, Algorithm& algorithm, const Situation& situatio
     tick.force = (is_late ? rendered_share(outcome.late) : share_) * on_hand;
 }
 
-/// Keeps a body within reach and returns its place. A lying remote can otherwise drag it so far
-/// that the other copy rejects its place, and the two would never agree again.
+/// Keeps a body within reach and returns its place. Otherwise a remote with false data could drag
+/// it so far that the other copy rejects its place, and the two copies would never agree again.
 inline base::Position SceneCopy::keep_within_reach(scene::BodyId body)
 {
     const base::Position place = world_.position(body);
@@ -208,7 +209,7 @@ inline void SceneCopy::account_for(std::size_t body, SharedPoses::Mover mover, c
     } else if (mover == SharedPoses::Mover::others) {
         effect.last_touch.reset(); // another hand has taken the body over
     }
-    // The body still coasts from this hand's push for a while after it.
+    // After a push, the body still coasts from this hand for a while.
     const bool ours = effect.last_touch && now - *effect.last_touch < push_lasts;
     const base::Displacement moved = keep_within_reach(shared.id) - effect.place_before;
     if (ours) effect.sums.add(moved);

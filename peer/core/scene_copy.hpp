@@ -16,47 +16,49 @@
 
 namespace hapnet::peer {
 
-/// A peer's own copy of the scene, with the movable bodies that all peers share, and what this
-/// peer's hand does to them. Each tick of a session calls tick(), and then
-/// say() for each message.
+/// A peer's own copy of the scene, with the movable bodies that all peers share, and the effects of
+/// this peer's hand on them. Call tick() in each tick of a session, and then say() for each
+/// message.
 class SceneCopy {
 public:
-    static constexpr double reach_max_m = 10.0; // no hand of any scene is ever farther out
-    /// The time for which the others hear of a body after it has moved.
+    static constexpr double reach_max_m = 10.0; // no hand in any scene is farther out
+    /// The time for which messages contain a body after it has moved.
     static constexpr base::Duration body_lingers{std::chrono::seconds{1}};
     /// The time after its last touch for which a hand counts as the cause of the body's motion.
     static constexpr base::Duration push_lasts{std::chrono::milliseconds{200}};
 
-    /// The scene must be one that shared_bodies() and World::freeze() accept.
+    /// `settings.scene` must be accepted by shared_bodies() and World::freeze().
     explicit SceneCopy(const Settings& settings);
 
     [[nodiscard]] const scene::World& world() const { return world_; }
-    /// The shared bodies: every movable body of the scene, by their ids.
+    /// Returns the shared bodies: every movable body of the scene, sorted by id.
     [[nodiscard]] std::span<const SharedBody> shared() const { return shared_; }
-    /// The first shared body.
+    /// Returns the first shared body.
     [[nodiscard]] scene::BodyId body() const { return body_; }
-    /// Decides whose copies count; nullptr: only one body is shared, and it does not turn.
+    /// Returns the object that decides whose copies are authoritative; nullptr if only one body is
+    /// shared and it does not turn.
     [[nodiscard]] SharedPoses* poses() { return poses_ ? &*poses_ : nullptr; }
     [[nodiscard]] const SharedPoses* poses() const { return poses_ ? &*poses_ : nullptr; }
-    /// The greatest force of another hand, N.
+    /// Returns the greatest force of another hand, in N.
     [[nodiscard]] double force_max_n() const { return force_max_n_; }
 
-    /// True if a state of another peer can be true here.
+    /// True if a state of another peer is possible in this scene.
     [[nodiscard]] bool is_plausible(const wire::State& state) const;
 
-    /// A peer that joins late starts with the bodies where one of the others has them. Until it
-    /// knows that, its copy stands still.
+    /// Makes the copy wait until take_over() knows the bodies, or ends this wait. A peer that joins
+    /// late needs it, because it starts with the bodies of one of the others. Until then its copy
+    /// stands still.
     void await_bodies(bool awaited) { is_known_ = !awaited; }
     [[nodiscard]] bool is_known() const { return is_known_; }
-    /// Places the bodies where one of the others has them, once that one has told of all.
+    /// Places all bodies as one of the others has them, once that one has sent all of them.
     void take_over(std::span<const Remote> others);
 
-    /// Lets the algorithm move the copy by a tick, and adds up what this hand has done.
+    /// Lets the algorithm advance the copy by a tick, and adds up the effects of this hand.
     void tick(Tick& tick, Algorithm& algorithm, const Situation& situation,
               const scene::HandInput& hand);
 
-    /// The bodies of which the others must hear now: those that something touches or moves, or did
-    /// a moment ago; all of them when that is `all_due`.
+    /// Returns the bodies that messages must contain now: those that something touches or moves, or
+    /// did a moment ago; all of them if `all_due`.
     [[nodiscard]] BodySet bodies_to_say(bool all_due, base::TimePoint now) const
     {
         unsigned set = 0;

@@ -47,8 +47,7 @@ base::Result<SendPolicy> parse_deadband(std::string_view text, std::string_view 
     return policy;
 }
 
-/// True if what a receiver predicts is off by more than a share of the signal, and by more than
-/// the floor.
+/// True if the error of the receivers' prediction exceeds both a share of the signal and the floor.
 bool is_beyond(double error, double share, double signal, double floor)
 {
     return error > std::max(share * signal, floor);

@@ -18,8 +18,8 @@
 
 namespace hapnet::peer {
 
-/// The rule by which a peer sends its state: every N ticks, or, with a deadband, when the
-/// others' prediction from the last message is too far off. A perceptual deadband as in P.
+/// The rule by which a peer sends its state: every N ticks, or, with a deadband, when the others'
+/// prediction from the last message is too inaccurate. This is a perceptual deadband as in P.
 /// Hinterseer et al., Perception-based data reduction and transmission of haptic data in
 /// telepresence and teleaction systems, IEEE Trans. Signal Processing 56 (2008), and IEEE 1918.1.1.
 struct SendPolicy {
@@ -37,11 +37,11 @@ struct SendPolicy {
     friend bool operator==(const SendPolicy&, const SendPolicy&) = default;
 };
 
-/// "every:10", "deadband:8%", or "deadband:8%,100ms" with the longest silence.
+/// Parses "every:10", "deadband:8%", or "deadband:8%,100ms", where the time is the longest silence.
 [[nodiscard]] base::Result<SendPolicy> parse_send_policy(std::string_view text);
 [[nodiscard]] std::string text_of(const SendPolicy& policy);
 
-/// A send policy as a value of a text.
+/// The format of a send policy as a value in a text.
 struct SendPolicyFormat {
     void read(const base::Node& node, SendPolicy& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const SendPolicy& policy) const;
@@ -63,20 +63,20 @@ constexpr auto names_of(base::Tag<SendCause> /*enum*/)
     return base::names("held_back", "rate", "contact", "force", "velocity", "position", "silence");
 }
 
-/// Judges in each tick whether the state is due. Receivers are taken to predict that the hand goes
-/// on with the velocity of the last message, and that its force stays.
+/// Decides in each tick if the state is due. It assumes that receivers predict a hand that
+/// continues with the velocity of the last message, and a constant force.
 class SendGate {
 public:
-    // A prediction that is off by less than this is good enough, however small the signal.
+    // The error of a prediction below which no message is sent, however small the signal is.
     static constexpr double position_floor_m = 0.1e-3;
     static constexpr double velocity_floor_m_per_s = 5e-3;
     static constexpr double force_floor_n = 0.02;
 
     explicit SendGate(const SendPolicy& policy) : policy_{policy} {}
 
-    /// Returns why the state of this tick is due, or held_back when it is not. `number`: number of
-    /// the tick, from 0 in the session. The state has the hand, its force and its contacts. A state
-    /// that is due counts as sent.
+    /// Returns why the state of this tick is due, or held_back when it is not. `number` is the
+    /// number of the tick, from 0 in the session. The state must contain the hand, its force and
+    /// its contacts. A state that is due counts as sent.
     [[nodiscard]] SendCause judge(const wire::State& state, std::int64_t number);
 
 private:

@@ -8,8 +8,8 @@ namespace hapnet::peer {
 
 namespace {
 
-// The step by which a state moves the usual value. A device may set a pace 1.4 % above the nominal
-// one (DeviceTimer), and a queue may empty at almost a millisecond a state.
+// The steps by which a state changes the usual values. A device may set a pace 1.4 % above the
+// nominal one (DeviceTimer), and a queue may drain at almost a millisecond per state.
 constexpr base::Duration lead_step{std::chrono::microseconds{125}};
 constexpr base::Duration transit_step{std::chrono::milliseconds{1}};
 

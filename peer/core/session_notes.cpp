@@ -4,13 +4,13 @@
 
 namespace hapnet::peer {
 
-/// Makes the row if it is due.
+/// Creates the row and returns true if it is due.
 bool SessionNotes::is_due(const Peer& peer, std::size_t other, base::TimePoint now)
 {
     const Remote& remote = peer.others()[other];
     const auto& session = remote.session();
     if (!session) return false;
-    // The clock of a remote that was restarted is unknown until it has answered.
+    // The clock of a restarted remote is unknown until the remote has answered.
     const auto clock = remote.handshake().clock();
     if (!clock) return false;
     auto& noted = noted_[other];

@@ -12,8 +12,9 @@
 
 namespace hapnet::peer {
 
-/// The rows of a record with the terms of a peer's session with each of the others: one when they
-/// are agreed on or change, and one a second, as the estimates of clocks change.
+/// The rows of a record with the terms of a peer's session with each of the others. A row is due
+/// when they are agreed on, when they change, and once a second, because the clock estimates
+/// change.
 class SessionNotes {
 public:
     static constexpr base::Duration noted_every{std::chrono::seconds{1}};

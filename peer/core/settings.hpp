@@ -12,19 +12,19 @@ namespace hapnet::peer {
 
 struct Settings {
     Introduction introduction;
-    /// The other peers. With more than one, the algorithm must have plays_with_many().
+    /// The other peers. If there are several, plays_with_many() must be true for the algorithm.
     Roster roster;
     scene::Description scene = scene::paper_scene(); // must be accepted by shared_bodies()
     Algorithm algorithm; // must be accepted by check_bodies_of() and check_hands_of()
-    /// Damping of the device and the loosest grip on it. It bounds the contacts that can be
-    /// rendered without the hand drawing energy from them (passive_share). The default is a nominal
-    /// grip on a stylus, and an assumption: fingertips were measured at 4 to 7.4 N s/m (A. Z.
-    /// Hajian, R. D. Howe: Identification of the mechanical impedance at the human finger tip,
+    /// The damping of the device with the loosest grip on it. It limits the contacts that can be
+    /// rendered without the hand drawing energy from them (passive_share). The default is an
+    /// assumption, for a nominal grip on a stylus: fingertips were measured at 4 to 7.4 N s/m (A.
+    /// Z. Hajian, R. D. Howe: Identification of the mechanical impedance at the human finger tip,
     /// 1997).
     double grip_damping_ns_per_m = 4.0;
-    /// Stiffest contact that the device renders without buzzing, in the scene; 0: not known.
+    /// The stiffest contact in the scene that the device renders without buzzing; 0: not known.
     double stiffness_max_n_per_m = 0.0;
-    /// Metres in the scene for each metre that the hand moves.
+    /// The motion in the scene, in metres, for each metre that the hand moves.
     double mount_scale = 1.0;
     SendPolicy send;                 // when states are sent to the other peers
     Playout playout = Playout::none; // when received states are given to the algorithm

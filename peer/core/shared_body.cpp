@@ -13,7 +13,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// Returns the body's name for a person.
+/// Returns the body's name for people.
 std::string named(const scene::BodyDescription& body, std::size_t index)
 {
     return body.name.empty() ? fmt::format("body {}", index + 1)
@@ -28,7 +28,7 @@ double reach_of(const scene::BodyDescription& body)
     return reach_m;
 }
 
-/// Whatever a session cannot have, bodies apart.
+/// Refuses everything in a scene that sessions do not support, except bodies.
 base::Result<void> check_hands(const scene::Description& scene, bool is_like_the_papers)
 {
     if (scene.hands.count == 0) return base::fail("a session needs a hand; this scene has none");

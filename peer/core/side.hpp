@@ -16,7 +16,7 @@
 
 namespace hapnet::peer {
 
-/// A device behind its governor, in the scene's frame. device::Rig is one. A loop with a watchdog
+/// A device behind its governor, in the scene's frame, such as device::Rig. A loop with a watchdog
 /// and the replay of a record have rigs of their own.
 template <typename R>
 concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, device::Cue cue)
@@ -35,11 +35,11 @@ concept RigLike = requires(R rig, base::Force wanted, base::TimePoint now, devic
 
 /// One side of a session: its device, its copy of the scene and the session, without clock, socket
 /// or thread. The daemon's loop, the players in virtual time, the replay of records and the tests
-/// all play through it. Feed it with on_datagram(), call step() once per tick, then drain poll()
-/// and notice().
+/// all use it. Feed it with on_datagram(), call step() once per tick, then drain poll() and
+/// notice().
 class Side {
 public:
-    /// The scene must be one that shared_body() and World::freeze() accept.
+    /// `settings.scene` must be accepted by shared_body() and World::freeze().
     explicit Side(const Settings& settings)
         : peer_{settings}, id_{settings.introduction.id}, mount_scale_{settings.mount_scale}
     {}
@@ -50,8 +50,8 @@ public:
         peer_.on_datagram(datagram, arrived, from);
     }
 
-    /// Plays one tick, in this order: reads the device, moves session and scene on, has the force
-    /// governed and applied, and tells the device of a new start.
+    /// Plays one tick in this order: reads the device, advances session and scene, has the force
+    /// governed and applied, and informs the device of a new start.
     template <RigLike Rig>
     const Tick& step(base::TimePoint now, Rig& rig)
     {
@@ -68,7 +68,7 @@ public:
         return tick;
     }
 
-    /// See Peer.
+    /// See Peer::poll() and Peer::notice().
     [[nodiscard]] const wire::Datagram* poll(std::size_t to = 0) { return peer_.poll(to); }
     [[nodiscard]] const Notice* notice() { return peer_.notice(); }
 
@@ -78,11 +78,12 @@ public:
     // Values of the last step.
     [[nodiscard]] const device::Sample& sample() const { return sample_; }
     [[nodiscard]] const Tick& tick() const { return peer_.last(); }
-    /// The force that the device was told at the hand, after the governor.
+    /// Returns the force at the hand that was sent to the device, after the governor.
     [[nodiscard]] base::Force told() const { return told_; }
-    /// The last step as a row of a record. The loop knows its number and time.
+    /// Returns the last step as a row of a record. The caller gives the number and time of the
+    /// tick.
     [[nodiscard]] record::TickRow row(std::uint64_t number, const TickTime& time) const;
-    /// One of peer().shared() after the last step, as a row of a record.
+    /// Returns the state of one of peer().shared() after the last step as a row of a record.
     [[nodiscard]] record::BodyRow body_row(std::uint64_t number, const SharedBody& body) const;
 
 private:
@@ -92,8 +93,7 @@ private:
         return session && cued_ != session->start;
     }
     [[nodiscard]] device::Cue take_cue();
-    /// The work of the hand against the last force that it was given, J. The hand comes from
-    /// `before`.
+    /// Returns the work of the hand against the last force on it, in J, since it was at `before`.
     [[nodiscard]] double work_since(base::Position before) const
     {
         return -glm::dot(told_.value, (sample_.hip - before).value) / mount_scale_;
@@ -106,10 +106,10 @@ private:
     device::Sample sample_;
     base::Force told_;
     device::GovernorState governor_state_ = device::GovernorState::off;
-    std::optional<base::TimePoint> cued_; // session start that the device was told
+    std::optional<base::TimePoint> cued_; // session start of the last cue
 };
 
-/// The sample that Side::row() wrote: the other way round.
+/// Returns the sample that Side::row() has written into a row.
 [[nodiscard]] device::Sample sample_of(const record::TickRow& row);
 
 } // namespace hapnet::peer

@@ -10,19 +10,20 @@
 
 namespace hapnet::peer {
 
-/// The ticks of a remote's messages. Messages are numbered as they are sent: where every tick has
-/// one, the number is the tick. Where the remote sends in fewer ticks, its send stamps tell the
-/// tick.
+/// Finds the ticks of a remote's messages. Messages are numbered in the order of sending. If every
+/// tick has a message, its number is the number of the tick. If the remote sends in fewer ticks,
+/// the tick follows from the send stamp.
 class TickCount {
 public:
-    /// The number of ticks, beside a tenth of all, that may have no message although every tick
-    /// should have one: the loop stood still, or missed ticks.
+    /// The number of ticks, in addition to a tenth of all ticks, that may lack a message although
+    /// every tick should have one, because the loop stalled or missed ticks.
     static constexpr std::int64_t missed_max = 50;
 
     struct Counted {
-        /// Number of the tick, on the scale of sequence numbers: newer states have greater ones.
+        /// The number of the tick, on the scale of sequence numbers: newer states have greater
+        /// numbers.
         std::uint32_t number = 0;
-        base::Duration span{}; // time from one message of the sender to the next: a tick or more
+        base::Duration span{}; // interval between the sender's messages: a tick or more
     };
     [[nodiscard]] Counted of(const wire::State& state, base::Duration tick);
     void forget() { *this = {}; }

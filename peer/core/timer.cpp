@@ -19,7 +19,7 @@ void FixedRateTimer::end(base::TimePoint now)
 std::optional<TickTime> DeviceTimer::at(base::TimePoint now)
 {
     if (!due_) due_ = now;
-    // The cycle nearest to the due time begins the tick.
+    // The tick begins with the cycle nearest to the due time.
     const base::Duration period = last_cycle_ ? std::min(now - *last_cycle_, tick_) : tick_;
     last_cycle_ = now;
     if (now + period / 2 < *due_) return std::nullopt;
@@ -27,7 +27,8 @@ std::optional<TickTime> DeviceTimer::at(base::TimePoint now)
     const base::TimePoint due = *due_ + behind * tick_;
     const base::Duration off = now - due;
     due_ = due + tick_ + off / 32;
-    // An early one is due when it comes, so that due + late is exactly the time of the tick.
+    // The due time of an early tick is the time of its cycle, so that due + late is exactly the
+    // time of the tick.
     return TickTime{std::min(due, now), std::max(off, base::Duration{0}),
                     static_cast<std::uint32_t>(behind)};
 }

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the XDG Base Directory Specification says: a relative path is not used. "" where the
-/// environment names no place.
+/// Returns the folder by the XDG Base Directory Specification, which ignores relative paths; "" if
+/// the environment names none.
 std::string folder()
 {
     const char* state = std::getenv("XDG_STATE_HOME");

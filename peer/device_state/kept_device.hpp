@@ -9,23 +9,23 @@
 
 namespace hapnet::peer::device_state {
 
-/// The state of one real device in its file, $XDG_STATE_HOME/hapnet/device/NAME.json, or below
-/// ~/.local/state: read at the start, and written at once (mode 0600) whenever it changes. A file
-/// that cannot be read counts as missing. One that cannot be written is reported, and the session
-/// goes on.
+/// The stored state of one real device, in $XDG_STATE_HOME/hapnet/device/NAME.json or below
+/// ~/.local/state. It is read at the start, and written at once (mode 0600) whenever it changes. An
+/// unreadable file counts as missing. A file that cannot be written is reported, and the session
+/// continues.
 class KeptDevice {
 public:
     KeptDevice(const device::Identity& identity, std::string_view place);
 
-    /// The result of device_state::why_untested() for its state, for now.
+    /// Returns the present result of device_state::why_untested() for this device.
     [[nodiscard]] std::string_view why_untested() const;
     [[nodiscard]] double heat_at_start(base::Duration heat_time) const;
 
-    /// Call it before motors are used. Their heat is then unknown until on_rest(), also if the
-    /// program dies.
+    /// Notes that the motors are about to be used. Their heat is then unknown until on_rest(), also
+    /// if the program dies.
     void on_use();
     void on_rest(double heat);
-    /// The device has passed a self-test, now.
+    /// Notes that the device has just passed a self-test.
     void on_passed();
 
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -33,7 +33,7 @@ public:
 private:
     void save();
 
-    std::string path_; // file of the state; "": there is no folder for it
+    std::string path_; // path of the file; "": there is no folder for it
     DeviceState state_;
 };
 

@@ -33,7 +33,7 @@ std::string escaped(std::string_view text)
     return out;
 }
 
-/// A number at least 0; an error text when there is something else, nullopt when there is null.
+/// Returns a number of at least 0, or nullopt for null. The error is for any other value.
 base::Result<std::optional<double>> number_in(const nlohmann::json& document, const char* key)
 {
     const auto found = document.find(key);

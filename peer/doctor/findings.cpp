@@ -147,7 +147,7 @@ Finding on_hd(const Facts& facts)
         "install OpenHaptics and the device's driver from 3D Systems, or give --hd-library FILE"};
 }
 
-/// Handshakes carry the date, and one that is older than the last is refused.
+/// Handshakes contain the date, and one that is older than the last is refused.
 Finding on_date(bool is_set)
 {
     if (is_set) return {"date", Level::ok, "the clock is set, as sessions with keys want it"};

@@ -15,17 +15,17 @@ namespace hapnet::peer::doctor {
 
 enum class Level : std::uint8_t {
     ok,
-    warning, // it works, but worse than it could
-    bad,     // something that is there cannot be used
+    warning, // it works, but not as well as it could
+    bad,     // something that exists cannot be used
 };
 constexpr auto names_of(base::Tag<Level>) { return base::names("ok", "warn", "bad"); }
 
-/// One thing that was looked at.
+/// The result of one check.
 struct Finding {
     std::string subject;
     Level level = Level::ok;
     std::string text;
-    std::optional<std::string> cure{}; // one line; nullopt where all is well
+    std::optional<std::string> cure{}; // one line; nullopt if all is well
 };
 constexpr auto fields_of(base::Tag<Finding>)
 {
@@ -42,7 +42,7 @@ constexpr auto fields_of(base::Tag<Finding>)
 struct Timing {
     bool fifo = false;
     bool locked_memory = false;
-    bool is_root = false;      // as root, withheld rights can only be granted from outside
+    bool is_root = false;      // if true, only the outside can grant missing rights
     base::Duration slack{};    // slack of the thread's timers
     base::Duration late_p99{}; // p99 lateness of wake-ups at 1 kHz
 };
@@ -55,35 +55,35 @@ struct Node {
     std::string rule{}; // udev rule that the node needs; "": hapnet's rules cover it
 };
 
-/// A key file that was asked about.
+/// A key file that the user asked to check.
 struct KeyFact {
     std::string path;
     std::string trouble{}; // why a session would refuse the file, with the cure; "": it is fine
 };
 
-/// The facts that were found about the system.
+/// The facts about the system that the checks use.
 struct Facts {
     Timing timing;
-    std::vector<std::string> cpu_governors; // distinct ones; empty: the speed cannot be set
+    std::vector<std::string> cpu_governors; // distinct ones; empty: there is no frequency scaling
     std::optional<std::uint64_t> receive_buffer_max_bytes;
     bool forces_buffers = false; // may exceed receive_buffer_max_bytes
     bool has_udev = false;
-    std::optional<std::string> installed_rules; // hapnet's udev rules; nullopt: not installed
+    std::optional<std::string> installed_rules; // their text; nullopt: not installed
     std::vector<Node> nodes;
     bool has_firewire_card = false;
     bool has_firewire_driver = false;
-    std::string hd_trouble;  // why libHD cannot be loaded; "": it can, or is not wanted
-    bool hd_wanted = false;  // --hd-library is given, or a device that needs libHD is there
-    bool is_date_set = true; // the wall clock is past the start of 2026
+    std::string hd_trouble;  // why libHD cannot be loaded; "": it can, or is not needed
+    bool hd_wanted = false;  // --hd-library is given, or a device that needs libHD exists
+    bool is_date_set = true; // the wall clock is after the start of 2026
     std::optional<KeyFact> key;
 };
 
-/// Judges the facts.
+/// Returns the findings for these facts.
 [[nodiscard]] std::vector<Finding> judge(const Facts& facts);
 
-/// The udev rules of this version.
+/// Returns the udev rules of this version.
 [[nodiscard]] std::string_view udev_rules();
-/// The command, in one line, that installs the udev rules from wherever the program is.
+/// Returns a one-line command that installs the udev rules, wherever the program is.
 [[nodiscard]] std::string_view udev_cure();
 
 } // namespace hapnet::peer::doctor

@@ -24,7 +24,7 @@ constexpr auto fields_of(base::Tag<Examination>)
 
 [[nodiscard]] Examination examine(const Facts& facts);
 
-/// A line for each finding, and under it what to do.
+/// Returns a line for each finding, followed by what to do about it.
 [[nodiscard]] std::string text_of(const Examination& examination);
 [[nodiscard]] std::string json_text_of(const Examination& examination);
 

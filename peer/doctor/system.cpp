@@ -32,7 +32,7 @@ using namespace std::chrono_literals;
 constexpr int servo_priority = 45; // same as the loop of a session
 constexpr int wake_ups = 300;
 
-/// Its whole text, without the line's end; nullopt when it cannot be read.
+/// Returns the content of a file without the line end; nullopt if it cannot be read.
 std::optional<std::string> text_in(const fs::path& file)
 {
     std::ifstream in{file};
@@ -49,7 +49,7 @@ std::string word_in(const fs::path& file)
     return word;
 }
 
-/// The entries of a folder, sorted; none when there is no folder.
+/// Returns the sorted entries of a folder; none if there is no folder.
 std::vector<fs::path> entries_of(const fs::path& folder)
 {
     std::error_code error;
@@ -94,7 +94,8 @@ void find_firewire(const fs::path& root, std::vector<Node>& nodes)
     }
 }
 
-/// True if this descriptor, in which a device describes itself, has force feedback (USB HID PID).
+/// True if this report descriptor, by which a device describes itself, includes force feedback (USB
+/// HID PID).
 bool has_force(const fs::path& report_descriptor)
 {
     const auto text = text_in(report_descriptor);
@@ -132,7 +133,8 @@ void find_hid(const fs::path& root, std::vector<Node>& nodes)
     }
 }
 
-/// A serial port has its device's numbers one folder above the interface that it belongs to.
+/// Adds serial ports. The ids of their devices are one folder above the interface that the port
+/// belongs to.
 void find_serial(const fs::path& root, std::vector<Node>& nodes)
 {
     for (const fs::path& entry : entries_of(root / "sys/class/tty")) {
@@ -166,7 +168,7 @@ bool has_firewire_card(const fs::path& root)
 
 constexpr double year_2026_unix_s = 1'767'225'600.0;
 
-/// Measures the timing that the loop of a peer would have, on a thread of its own.
+/// Measures the timing that the loop of a peer would have, on a separate thread.
 Timing try_timing()
 {
     Timing timing;

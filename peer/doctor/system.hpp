@@ -9,8 +9,8 @@
 
 namespace hapnet::peer::doctor {
 
-/// Looks at the system whose files begin at `root`, usually "/", and at this process's rights.
-/// `hd_library` is as --hd-library; "": by its usual names.
+/// Collects facts about the system whose root folder is `root`, usually "/", and about this
+/// process's rights. `hd_library` is the value of --hd-library; "": the usual names are tried.
 [[nodiscard]] Facts look_at(const std::filesystem::path& root, const std::string& hd_library);
 
 } // namespace hapnet::peer::doctor

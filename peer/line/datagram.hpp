@@ -13,7 +13,8 @@
 
 namespace hapnet::peer::line {
 
-/// Bytes of one datagram on the network, sealed or plain. A copy costs as much as there is in it.
+/// The bytes of one datagram on the network, sealed or plain. The cost of a copy depends on their
+/// number.
 class Datagram { // NOLINT(*-member-init): what is behind the bytes is never read
 public:
     static constexpr std::size_t bytes_max = wire::message_bytes_max + secure::control_overhead;
@@ -29,14 +30,14 @@ public:
     }
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
-    /// Ensures that there is room.
+    /// Replaces the bytes. Ensures that there is room for them.
     void assign(std::span<const std::byte> bytes)
     {
         base::ensure(bytes.size() <= bytes_max);
         size_ = bytes.size();
         if (size_ > 0) std::memcpy(bytes_.data(), bytes.data(), size_);
     }
-    /// All of its room, to work on what is in it.
+    /// Returns the whole buffer, so that the bytes can be changed in place.
     [[nodiscard]] std::span<std::byte> room() { return bytes_; }
 
 private:

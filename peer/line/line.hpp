@@ -15,7 +15,7 @@
 
 namespace hapnet::peer::line {
 
-/// Messages go as they are, to one place, and are taken from it alone. See Line.
+/// Sends plain messages to one place, and accepts them only from it. See Line.
 class Plain {
 public:
     explicit Plain(const secure::Place& other) : place_{other} {}
@@ -27,7 +27,7 @@ public:
             ++strangers_;
             return std::nullopt;
         }
-        // No message of ours is as long as that, so most are not looked into.
+        // No plain message is as long as an initiation, so most datagrams are not examined further.
         if (datagram.size() == secure::initiation_bytes) look_for_key(datagram);
         return datagram;
     }
@@ -50,30 +50,30 @@ private:
     PendingNews news_;
 };
 
-/// Between a side of a session, whose messages are plain, and the network: with a key all that
-/// leaves is sealed, and only what the other side has sealed comes in. Does no I/O and reads no
-/// clock: feed with open() and tick(), drain with send_all() and news().
+/// Connects a side of a session, whose messages are plain, to the network. With a key, all outgoing
+/// messages are sealed, and only messages that the other side has sealed are accepted. Does no I/O
+/// and reads no clock: feed it with open() and tick(), drain it with send_all() and news().
 class Line {
 public:
     /// A line without a key.
     explicit Line(const secure::Place& other) : kind_{Plain{other}} {}
     explicit Line(std::unique_ptr<Sealed> sealed) : kind_{std::move(sealed)} {}
 
-    /// True if a datagram says that it is for this line and not for another one of the same peer:
-    /// by the key or the handshake that it names. A seal is not looked at.
+    /// True if a datagram claims to belong to this line of the peer, by the key or the handshake
+    /// that it names. The seal is not checked.
     [[nodiscard]] bool is_named_by(std::span<const std::byte> datagram) const
     {
         return is_sealed() && sealed()->is_named_by(datagram);
     }
-    /// True if the other side is at this place, as far as is known.
+    /// True if the other side is at this place, as far as known.
     [[nodiscard]] bool leads_to(const secure::Place& place) const
     {
         const auto* plain = std::get_if<Plain>(&kind_);
         return plain == nullptr ? sealed()->place() == place : plain->place() == place;
     }
 
-    /// The plain message in a datagram; nullopt: it has none for this side. Valid until the next
-    /// call, and no longer than the datagram.
+    /// Returns the plain message in a datagram; nullopt if it contains none for this side. It is
+    /// valid until the next call, and no longer than the datagram.
     [[nodiscard]] std::optional<std::span<const std::byte>>
     open(std::span<const std::byte> datagram, const secure::Place& from, base::TimePoint now)
     {
@@ -81,15 +81,16 @@ public:
         return own_sealed()->open(datagram, from, now);
     }
 
-    /// Advances handshakes and keys. Call it once a tick, after urgent work. Takes at most one
+    /// Advances handshakes and keys. Call it once a tick, after more urgent work. Does at most one
     /// multiplication on the curve.
     void tick(secure::Moment moment)
     {
         if (is_sealed()) own_sealed()->tick(moment);
     }
 
-    /// Calls send(bytes, place) for everything to be sent: first the datagrams of handshakes, then
-    /// the messages that `poll` gives. Messages for which there is no key yet are left out.
+    /// Calls send(bytes, place) for everything that is to be sent: first the datagrams of
+    /// handshakes, then the messages that `poll` returns. Messages are left out while there is no
+    /// key for them.
     template <typename Poll, typename Send>
     void send_all(Poll poll, Send send, base::TimePoint now)
     {
@@ -113,13 +114,14 @@ public:
     }
 
     [[nodiscard]] bool is_sealed() const { return !std::holds_alternative<Plain>(kind_); }
-    /// Datagrams from elsewhere; with a key the place says nothing, and the seal does.
+    /// Returns the number of datagrams from other places. It is 0 with a key, because the seal and
+    /// not the place identifies the sender.
     [[nodiscard]] std::uint64_t strangers() const
     {
         const auto* plain = std::get_if<Plain>(&kind_);
         return plain == nullptr ? 0 : plain->strangers();
     }
-    /// nullptr without a key.
+    /// Returns the sealed line; nullptr without a key.
     [[nodiscard]] const Sealed* sealed() const
     {
         const auto* sealed = std::get_if<std::unique_ptr<Sealed>>(&kind_);

@@ -19,7 +19,7 @@ std::optional<Lines::Opened> Lines::open(std::span<const std::byte> datagram,
         return message ? std::optional{Opened{line, *message}} : std::nullopt;
     };
     if (lines_.size() == 1) return open_by(0);
-    // Two lines may have drawn the same number for a key, once in a long while: then both try.
+    // In rare cases two lines have drawn the same number for a key. Then both try.
     bool is_named = false;
     for (std::size_t line = 0; line < lines_.size(); ++line) {
         if (!lines_[line].is_named_by(datagram)) continue;
@@ -29,7 +29,7 @@ std::optional<Lines::Opened> Lines::open(std::span<const std::byte> datagram,
     if (is_named) return std::nullopt;
     const auto from_there =
         std::ranges::find_if(lines_, [&from](const Line& line) { return line.leads_to(from); });
-    // A datagram for no line is counted by the first.
+    // A datagram for no line is counted by the first line.
     return open_by(
         from_there == lines_.end() ? 0 : static_cast<std::size_t>(from_there - lines_.begin()));
 }

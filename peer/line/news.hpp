@@ -11,26 +11,26 @@
 
 namespace hapnet::peer::line {
 
-/// News of the line to the other peer, for a person.
+/// News about the line to the other peer, for a person.
 enum class News : std::uint8_t {
-    sealed,          // the two have agreed on a key: messages can be sent from now on
-    other_is_plain,  // the other side plays without a key
-    other_is_sealed, // the other side has a key, and this one has none
-    other_circle,    // handshakes come with keys of another circle
-    moved,           // the other side is heard from another place
-    same_id,         // two programs seem to have the same key and push each other out
-    rekeyed,         // the two have gone over to a new key, as they do every two minutes
+    sealed,          // there is a key: messages can be sent from now on
+    other_is_plain,  // the other side uses no key
+    other_is_sealed, // the other side uses a key, and this one does not
+    other_circle,    // handshakes arrive that use the keys of another circle
+    moved,           // messages of the other side come from a new place
+    same_id,         // two programs seem to use the same key and displace each other
+    rekeyed,         // a new key is in use, as every two minutes
 };
 inline constexpr std::size_t kinds_of_news = 7;
 
-/// The names in the output of --events.
+/// The names of news in the output of --events.
 constexpr auto names_of(base::Tag<News> /*enum*/)
 {
     return base::names("sealed", "other_is_plain", "other_is_sealed", "other_circle", "moved",
                        "same_id", "rekeyed");
 }
 
-/// News that was not taken yet, each once.
+/// News that has not been taken yet. Each kind is kept once.
 class PendingNews {
 public:
     void put(News news) { waiting_.set(static_cast<std::size_t>(news)); }

@@ -34,15 +34,16 @@ Sealed::open(std::span<const std::byte> datagram, const secure::Place& from, bas
         ++misnamed_;
         return std::nullopt;
     }
-    // Plain hellos count only until there is a key: a person wants to know why there is none.
+    // Plain hellos are reported only while there is no key, because they explain why.
     if (plain_hellos_ >= trouble_needed || association_.has_key(now)) return std::nullopt;
     if (wire::is_hello(datagram) && ++plain_hellos_ == trouble_needed)
         news_.put(News::other_is_plain);
     return std::nullopt;
 }
 
-/// A key is for one peer and one run of it: no member of a circle introduces another one. States
-/// and goodbyes need no check: they name the session, which belongs to the key.
+/// True if a message fits its key, which belongs to one run of one peer: no member of a circle can
+/// impersonate another. States and goodbyes need no check, because they name the session, which
+/// belongs to the key.
 bool Sealed::is_of_its_key(std::span<const std::byte> message, std::uint32_t other_run) const
 {
     if (!wire::is_hello(message)) return true;

@@ -16,21 +16,22 @@
 
 namespace hapnet::peer::line {
 
-/// Seals messages and sends them to where the other side was heard last. This is one kind of Line.
+/// Seals messages and sends them to the place from which the other side was last heard. It is one
+/// kind of Line.
 class Sealed {
 public:
-    /// The number of events of one kind of trouble after which it is reported. A single one may be
-    /// damage, or an attack.
+    /// The number of events of one kind after which a problem is reported. A single event may be
+    /// damage or an attack.
     static constexpr std::uint64_t trouble_needed = 3;
-    /// This many restarts of the other side within `restarts_within` mean that two programs have
-    /// the same key and push each other out.
+    /// The number of restarts of the other side within `restarts_within` that shows that two
+    /// programs use the same key and displace each other.
     static constexpr std::size_t restarts_suspected = 3;
     static constexpr base::Duration restarts_within{std::chrono::seconds{30}};
 
-    /// The session_of in `config` does not count: it is always that of the messages.
+    /// `config.session_of` is ignored, as it is always that of the messages.
     Sealed(secure::Association::Config config, secure::StaticKeys keys, secure::Secret seed);
 
-    /// True if a datagram says that it is for this line, by the key or the handshake that it names.
+    /// True if a datagram claims to belong to this line, by the key or the handshake that it names.
     [[nodiscard]] bool is_named_by(std::span<const std::byte> datagram) const
     {
         return association_.is_named_by(datagram);
@@ -43,7 +44,7 @@ public:
     {
         return association_.poll();
     }
-    /// Seals a message; nullopt: there is no key. The result is valid until the next call.
+    /// Seals a message; nullopt if there is no key. The result is valid until the next call.
     [[nodiscard]] std::optional<std::span<const std::byte>> seal(std::span<const std::byte> message,
                                                                  base::TimePoint now);
     [[nodiscard]] std::optional<News> news() { return news_.take(); }
@@ -58,7 +59,7 @@ public:
     {
         return association_.counts();
     }
-    /// Hellos that say another run or another id than their key.
+    /// Returns the number of hellos that name another run or another id than their key.
     [[nodiscard]] std::uint64_t misnamed() const { return misnamed_; }
 
 private:
@@ -72,7 +73,7 @@ private:
     Datagram incoming_, outgoing_;
     std::uint64_t misnamed_ = 0;
     std::uint64_t plain_hellos_ = 0;
-    secure::Association::Counts before_; // counts in the tick before
+    secure::Association::Counts before_; // counts in the previous tick
     PendingNews news_;
     std::array<base::TimePoint, restarts_suspected> restarts_{}; // ring of the newest restarts
     std::uint64_t restart_count_ = 0;

@@ -12,7 +12,7 @@
 
 namespace hapnet::peer::line {
 
-/// The line to the other peer at a moment; statistics are made from it.
+/// The status of the line to the other peer at one time, from which statistics are made.
 struct Status {
     /// The status of a line with a key.
     struct Key {
@@ -22,7 +22,7 @@ struct Status {
         std::uint64_t misnamed = 0;
         std::optional<secure::Place> place; // place of the other side
     };
-    std::uint64_t strangers = 0; // datagrams from other places than the other side's
+    std::uint64_t strangers = 0; // datagrams from places other than that of the other side
     std::optional<Key> key;      // nullopt: messages are plain
 };
 

@@ -10,10 +10,11 @@
 
 namespace hapnet::peer::loop {
 
-/// The device's own buttons as a dead man's switch: any of them.
+/// The buttons of the device as a dead man's switch. Any of them will do.
 struct DeviceButton {};
 
-/// A dead man's switch: there is force only while a person holds it. Without one there always is.
+/// A dead man's switch: there is force only while a person holds it. Without a switch, force is
+/// always allowed.
 class DeadMan {
 public:
     DeadMan() = default;
@@ -25,7 +26,8 @@ public:
         return !std::holds_alternative<std::monostate>(source_);
     }
 
-    /// True if it is held now. A device at fault says nothing, and nothing is held.
+    /// True if the switch is held now. A faulty device reports no button, so the switch counts as
+    /// released.
     [[nodiscard]] bool is_held(const device::Sample& sample)
     {
         if (auto* input = std::get_if<EvdevSwitch>(&source_)) return input->is_held();

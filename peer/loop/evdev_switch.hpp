@@ -9,12 +9,13 @@
 
 namespace hapnet::peer::loop {
 
-/// The keys of an input device that are down, from its events. Pure.
+/// The pressed keys of an input device, from its events. Does no I/O.
 class KeysDown {
 public:
-    /// Returns false when the kernel has dropped events: then the keys must be read again.
+    /// Takes events. Returns false if the kernel has dropped some; the keys must then be read
+    /// again.
     [[nodiscard]] bool on_events(std::span<const input_event> events);
-    /// Sets the state of all keys, one bit each, as EVIOCGKEY gives them.
+    /// Sets the state of all keys, one bit each, in the format of EVIOCGKEY.
     void set(std::span<const unsigned char> bits);
 
     [[nodiscard]] bool any() const { return down_.any(); }
@@ -23,9 +24,9 @@ private:
     std::bitset<KEY_CNT> down_;
 };
 
-/// A foot switch, or any other input device with keys, of the kernel: held while one of its keys is
-/// down. It is grabbed, so that its keys do nothing else meanwhile. An input that was pulled out,
-/// or that cannot be read, counts as released from then on.
+/// A foot switch, or any other input device of the kernel with keys. It is held while one of its
+/// keys is pressed. It is grabbed, so that its keys have no other effect meanwhile. After it was
+/// unplugged or could not be read, it counts as released for good.
 class EvdevSwitch {
 public:
     /// Opens and grabs "/dev/input/...". Throws std::system_error naming it.
@@ -36,7 +37,8 @@ public:
     EvdevSwitch(const EvdevSwitch&) = delete;
     EvdevSwitch& operator=(const EvdevSwitch&) = delete;
 
-    /// Takes in what has happened since the last call. Never blocks, never allocates.
+    /// Processes the events since the last call. Returns true while the switch is held. Never
+    /// blocks, never allocates.
     [[nodiscard]] bool is_held();
 
 private:

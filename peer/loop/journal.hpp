@@ -14,20 +14,20 @@
 
 namespace hapnet::peer::loop {
 
-/// An event that a person should be told of, and when it happened.
+/// An event to report to a person, with its time.
 struct TimedEvent {
     Event event = Event::met;
     base::TimePoint at;
     std::uint16_t about = 0; // id of the peer that it is about; 0: all, or not known
 };
 
-/// News of the device for a person, and its time.
+/// News about the device for a person, with its time.
 struct TimedDeviceNews {
     monitor::DeviceNews news;
     base::TimePoint at;
 };
 
-/// News of the line to another peer for a person, and its time.
+/// News about the line to another peer for a person, with its time.
 struct TimedLineNews {
     line::News news = line::News::sealed;
     base::TimePoint at;
@@ -48,21 +48,21 @@ struct HeardMessage {
     }
 };
 
-/// An entry of the servo thread for the record, the status line and the log. A row is of a tick, a
-/// body or a session.
+/// An entry that the servo thread writes for the record, the status line and the log. A row belongs
+/// to a tick, a body or a session.
 using Entry = std::variant<record::Row, HeardMessage, TimedEvent, TimedDeviceNews, TimedLineNews>;
 
-/// The one way out of the servo thread: a bounded queue that never makes that thread wait. Entries
-/// that do not fit are dropped and counted.
+/// The only output of the servo thread: a bounded queue that never blocks that thread. Entries that
+/// do not fit are dropped and counted.
 class Journal {
 public:
-    /// Servo side.
+    /// Adds an entry. For the servo thread.
     void put(const Entry& entry)
     {
         if (!entries_.try_enqueue(entry)) lost_.fetch_add(1, std::memory_order_relaxed);
     }
 
-    /// Reader side; nullopt when the journal is empty.
+    /// Takes the oldest entry; nullopt if the journal is empty. For the reading thread.
     [[nodiscard]] std::optional<Entry> take()
     {
         Entry entry;
@@ -73,12 +73,12 @@ public:
     [[nodiscard]] std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-    // 8 s of ticks and messages of two peers with one body, 2 s of eight, 1 s of eight with eight
-    // bodies: the recorder has as many.
+    // The capacity. It is enough for 8 s of ticks and messages of two peers with one body, 2 s of
+    // eight peers, or 1 s of eight peers with eight bodies. The recorder has the same capacity.
     static constexpr std::size_t capacity = 16384;
 
-    // The package has two queues. ThreadSanitizer can follow this one: it synchronises by atomics
-    // alone, without free-standing fences.
+    // The package has two queues. ThreadSanitizer supports this one, because it synchronises only
+    // by atomics, without free-standing fences.
     moodycamel::BlockingReaderWriterCircularBuffer<Entry> entries_{capacity};
     std::atomic<std::uint64_t> lost_{0};
 };

@@ -66,8 +66,8 @@ void Servo::follow_device()
     if (goes_on()) tell_governor_of_silence();
 }
 
-/// The device fell silent and so ended its pace. Without this the governor would find that the loop
-/// stood still, and a person would be told the wrong cause.
+/// Informs the governor that the device fell silent and so ended its pace. Otherwise the governor
+/// would conclude that the loop stood still, and report the wrong cause.
 void Servo::tell_governor_of_silence()
 {
     device::Governor& governor = parts_.rig.governor();
@@ -77,7 +77,7 @@ void Servo::tell_governor_of_silence()
     if (pushes) governor.latch({device::Fault::timeout, device::Trip::silence});
 }
 
-/// One cycle of the device; returns whether the device is to go on.
+/// Handles one cycle of the device. Returns true if the device is to continue.
 bool Servo::on_device_cycle(DeviceTimer& timer)
 {
     const base::TimePoint now = net::monotonic_now();
@@ -190,7 +190,7 @@ void Servo::report_device(base::TimePoint now)
 
 void Servo::receive(base::TimePoint now)
 {
-    // Bounded: a flood must not keep the loop from its device.
+    // The number of rounds is limited, because a flood must not keep the loop from its device.
     for (int round = 0; round < receive_rounds_max; ++round) {
         const auto batch = parts_.socket.receive();
         for (const net::Received& received : batch) {
@@ -201,7 +201,7 @@ void Servo::receive(base::TimePoint now)
     }
 }
 
-/// A message that came in by the line; the record has it as it was before it was sealed.
+/// Handles a message from the line. The record gets it in plain form.
 void Servo::hear(const line::Lines::Opened& opened, base::TimePoint at)
 {
     if (!is_worth_a_row(opened, at)) {
@@ -219,9 +219,9 @@ void Servo::hear(const line::Lines::Opened& opened, base::TimePoint at)
                                     .message = line::Datagram{message}});
 }
 
-/// Lets the session hear a message, and says whether the record is to have it: one that changed
-/// something always; others, such as duplicates, as long as they are no flood, which would fill the
-/// disk.
+/// Passes a message to the session, and returns true if it is to be recorded. Messages that had an
+/// effect always are. Others, such as duplicates, are recorded only up to a rate, because a flood
+/// would fill the disk.
 bool Servo::is_worth_a_row(const line::Lines::Opened& opened, base::TimePoint at)
 {
     const std::uint64_t states_before = parts_.side.peer().counters().states;
@@ -230,8 +230,8 @@ bool Servo::is_worth_a_row(const line::Lines::Opened& opened, base::TimePoint at
     return without_effect_.admits(at);
 }
 
-/// Advances keys and passes on news of the lines. Call it after the force was applied: a handshake
-/// may take a multiplication on the curve.
+/// Advances keys and reports news of the lines. Call it after the force was applied, because a
+/// handshake may take a multiplication on the curve.
 void Servo::tend_lines(base::TimePoint now)
 {
     if (parts_.lines.are_sealed()) parts_.lines.tick({now, net::wall_clock_nanoseconds()});

@@ -23,15 +23,15 @@
 namespace hapnet::peer::loop {
 
 /// The 1 kHz loop. Each tick receives datagrams, steps its Side, sends datagrams and writes the
-/// journal, in this order. It runs at a fixed rate, waking at absolute times. A device that sets
-/// the pace calls it instead, on a thread of the device's choice; when that device falls silent,
-/// the loop goes on at the fixed rate. A tick that comes a whole period late skips the ones that it
-/// has missed and counts them. In the tick after a stop was asked for the force is zero, whatever
-/// the other threads are doing. However run() ends, the device has then been told zero force three
-/// times.
+/// journal, in this order. It runs at a fixed rate and wakes at absolute times. A device that sets
+/// the pace calls the loop instead, on a thread of the device's choice. If that device falls
+/// silent, the loop continues at the fixed rate. A tick that is a whole period late skips the
+/// missed ticks and counts them. In the tick after a stop was requested, the force is zero,
+/// whatever the other threads are doing. However run() ends, the device has then been sent zero
+/// force three times.
 class Servo {
 public:
-    /// Everything that a servo works with. All parts outlive it.
+    /// Everything that a servo works with. All parts must outlive it.
     struct Parts {
         Side& side;
         device::Rig& rig;
@@ -42,7 +42,7 @@ public:
         Watchdog& watchdog;
         ForceGate& gate;
         base::Duration tick{std::chrono::milliseconds{1}};
-        /// The kinds of rows that the record has, and the room in them.
+        /// The kinds of rows in the record, and their lengths.
         record::Layout layout{};
     };
 
@@ -56,22 +56,24 @@ public:
     /// True once run() has returned. Call it from another thread.
     [[nodiscard]] bool is_done() const { return done_.load(std::memory_order_acquire); }
 
-    /// The time when the loop last worked. Call it from another thread.
+    /// Returns the time of the loop's last sign of life. Call it from another thread.
     [[nodiscard]] base::TimePoint last_beat() const { return parts_.watchdog.last_beat(); }
 
-    /// The outcome of sending the newest datagram. Call it from another thread.
+    /// Returns the outcome of sending the newest datagram. Call it from another thread.
     [[nodiscard]] net::SendOutcome sending() const
     {
         return sending_.load(std::memory_order_relaxed);
     }
 
-    /// Requests the status after the next tick, and takes it. Call these from one other thread.
+    /// Requests the status after the next tick. The function below takes it. Only one other thread
+    /// may call them.
     void request_status() { status_slot_.request(); }
     [[nodiscard]] bool take_status(ServoStatus& into) { return status_slot_.take(into); }
 
-    /// The real-time rights that were granted. Call it from another thread, once is_running().
+    /// Returns the real-time rights that were granted. Call it from another thread, once
+    /// is_running().
     [[nodiscard]] net::RealTime real_time() const { return real_time_; }
-    /// The status at the end. Call it after run().
+    /// Returns the status at the end. Call it after run().
     [[nodiscard]] ServoStatus status() const;
 
 private:
@@ -100,7 +102,8 @@ private:
     base::TimePoint last_tick_;
     SnapshotSlot<ServoStatus> status_slot_;
     net::RealTime real_time_;
-    /// 2000 a second, and a second of them at once: a true path duplicates no more than all.
+    /// Admits 2000 a second, and a second of them at once. A real path can duplicate at most all
+    /// messages.
     monitor::RateLimit without_effect_{2000, std::chrono::microseconds{500}};
     SessionNotes notes_;
     Withheld withheld_ = Withheld::no; // why force was withheld in the last tick

@@ -18,22 +18,22 @@
 
 namespace hapnet::peer::loop {
 
-/// Counters of the loop's punctuality and of its socket's outcomes.
+/// Counters of the loop's punctuality and of its socket.
 struct LoopCounters {
     std::uint64_t ticks = 0;
-    std::uint64_t missed = 0; // ticks skipped because the one before ended too late
+    std::uint64_t missed = 0; // ticks skipped because the previous one ended too late
     base::DurationHistogram late;
     std::uint64_t send_failures = 0; // not fatal: the remote's host may be down
     net::SendOutcome last_send = net::SendOutcome::sent;
-    std::uint64_t withheld = 0;   // ticks in which a person or a signal had stopped the force
+    std::uint64_t withheld = 0;   // ticks without force because of a person or a signal
     std::uint64_t unrecorded = 0; // datagrams of a flood that the record leaves out
     std::uint64_t too_long = 0;   // messages too long for the record's rows
 };
 
-/// One of the others: its clock, the path to it and back, and the line.
+/// The status of one of the others: its clock, the path to it and back, and the line.
 struct OtherStatus {
     std::uint16_t id = 0;               // 0: not known yet
-    std::optional<ClockEstimate> clock; // also while it is in doubt
+    std::optional<ClockEstimate> clock; // set even while it is in doubt
     bool is_clock_in_doubt = false;
     std::uint32_t clock_jumps = 0;
     PathsReport paths;
@@ -43,13 +43,13 @@ struct OtherStatus {
     line::Status line;
 };
 
-/// The status of a peer after one of its ticks; statistics are made from it. 20 KiB.
+/// The status of a peer after one of its ticks, from which statistics are made. Its size is 20 KiB.
 struct ServoStatus {
     base::TimePoint at;
     base::Duration elapsed{}; // since the first tick
     record::Phase phase = record::Phase::waiting;
     bool is_remote_heard = false; // at least one other peer's newest state is not stale
-    base::Force force;            // force that the device was told, at the hand
+    base::Force force;            // force at the hand that was sent to the device
     LoopCounters loop;
     Counters messages;
     std::optional<Session> session;
@@ -69,7 +69,7 @@ struct ServoStatus {
     device::EnergyFigures energy;
     device::RigCounters device;
     std::uint64_t watchdog_halts = 0;
-    std::uint64_t overflowed = 0; // datagrams that the socket had no room for
+    std::uint64_t overflowed = 0; // datagrams dropped because the socket's buffer was full
     net::RealTime real_time;
 };
 

@@ -8,23 +8,22 @@
 
 namespace hapnet::peer::loop {
 
-/// One thread requests a value from another, which fills it in when it comes by. Neither waits for
-/// the other and nothing is allocated: the one slot belongs to the filler from the request until it
-/// is filled, and otherwise to the reader.
+/// Passes values between two threads: the reader requests one, and the filler writes it when it
+/// next checks. Neither waits for the other, and nothing is allocated. The only slot belongs to the
+/// filler from the request until it is filled, and otherwise to the reader.
 template <typename Value>
 class SnapshotSlot {
     static_assert(std::is_trivially_copyable_v<Value>);
 
 public:
-    // The reader's side.
-    /// Requests a new value, unless one is requested or filled in already.
+    // Requests a new value, unless one is requested or waiting already. For the reader.
     void request()
     {
         if (state_.load(std::memory_order_acquire) == State::idle) {
             state_.store(State::requested, std::memory_order_release);
         }
     }
-    /// Takes the value that was filled in, once; false when there is none.
+    /// Takes the value that was filled in, once. Returns false if there is none.
     [[nodiscard]] bool take(Value& into)
     {
         if (state_.load(std::memory_order_acquire) != State::filled) return false;
@@ -33,8 +32,7 @@ public:
         return true;
     }
 
-    // The filler's side.
-    /// Has `fill(value)` write the value, if one is requested.
+    // Calls `fill(value)` to write the value, if one is requested. For the filler.
     template <typename Fill>
     void fill_if_requested(Fill fill)
     {

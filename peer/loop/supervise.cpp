@@ -20,7 +20,7 @@ namespace {
 
 constexpr base::Duration drain_every{std::chrono::milliseconds{50}};
 
-/// The servo on a thread of its own; an exception in it comes out of join().
+/// Runs the servo on a separate thread. join() rethrows its exception.
 class ServoThread {
 public:
     explicit ServoThread(Servo& servo)
@@ -56,8 +56,8 @@ void announce(const Supervised& supervised, const std::string& ready)
     if (!shortage.empty()) supervised.screen.put(fmt::format("hapnet-peer: {}\n", shortage));
 }
 
-/// The emergency stop: Enter at the terminal, or a client of the control socket. It also handles a
-/// stop, which is announced to programs only.
+/// Handles the emergency stop, by Enter at the terminal or by a client of the control socket. It
+/// also handles a stop, which is announced only to programs.
 class Stops {
 public:
     explicit Stops(const Supervised& supervised) : all_{supervised} {}
@@ -91,7 +91,7 @@ private:
     bool is_stop_told_ = false;
 };
 
-/// Signs of life to the service manager, while the loop moves.
+/// Sends keep-alive messages to the service manager as long as the loop makes progress.
 class SignsOfLife {
 public:
     SignsOfLife(const Servo& servo, net::ServiceManager* manager)
@@ -112,7 +112,7 @@ private:
     base::TimePoint beat_;
 };
 
-/// One round of the thread that watches; it sleeps until something happens, or for a while.
+/// Does one round of the supervising thread, which sleeps until something happens, or for a while.
 void look_after(const Supervised& supervised, Stops& stops)
 {
     auto& monitor = supervised.monitor;
@@ -121,7 +121,7 @@ void look_after(const Supervised& supervised, Stops& stops)
     const base::Duration every = control_session != nullptr ? monitor::ControlSession::every
                                  : plot != nullptr          ? monitor::PlotStream::every
                                                             : drain_every;
-    // Once a stop is asked for, the descriptor may stay readable: then only sleep.
+    // After a stop was requested, the descriptor may stay readable, so the thread then only sleeps.
     const std::array descriptors{supervised.stop.descriptor()};
     net::wait_readable(supervised.stop.requested() ? std::span<const int>{} : descriptors,
                        net::monotonic_now() + every);

@@ -48,14 +48,15 @@ void Watchdog::watch()
     }
 }
 
-/// Acts on the silence so far; returns when to look again.
+/// Acts on the silence so far. Returns when to look again.
 base::TimePoint Watchdog::look(base::TimePoint now)
 {
     const auto beat = last_beat_.load(std::memory_order_acquire);
     const base::TimePoint last{base::Duration{beat}};
     const Alarm alarm = beat == resting ? Alarm::none : alarm_after(now - last);
     if (alarm != Alarm::none) {
-        // Counted first: a loop that sees the count unchanged comes before the halt.
+        // The count is increased first, so that a loop that sees it unchanged has acted before the
+        // halt.
         if (alarm_ == Alarm::none) halts_.fetch_add(1, std::memory_order_acq_rel);
         device_.halt();
         if (alarm == Alarm::fault && alarm_ != Alarm::fault) {
@@ -70,7 +71,7 @@ base::TimePoint Watchdog::look(base::TimePoint now)
 void Watchdog::halt_for_good()
 {
     dying_.store(true, std::memory_order_release);
-    // The loop may be in the middle of a tick: the later halts outlast it.
+    // The loop may be in the middle of a tick. The later halts come after it.
     for (int i = 0; i < last_halts; ++i) {
         device_.halt();
         net::sleep_until(net::monotonic_now() + last_halts_every);

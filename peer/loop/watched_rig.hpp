@@ -10,11 +10,12 @@
 
 namespace hapnet::peer::loop {
 
-/// A rig for one tick of a watched loop, made before the device is read. A force that it applies
-/// never outlasts a halt by the watchdog in the same tick, and none passes a closed gate.
+/// A rig for one tick of a watched loop. Construct it before the device is read. A force that it
+/// applies never outlasts a halt by the watchdog in the same tick, and no force passes a closed
+/// gate.
 class WatchedRig {
 public:
-    /// All outlive it. Without a gate nothing is withheld.
+    /// All arguments must outlive it. Without a gate, no force is withheld.
     WatchedRig(device::Rig& rig, const Watchdog& watchdog, ForceGate* gate = nullptr)
         : rig_{rig}, watchdog_{watchdog}, gate_{gate}, halts_before_{watchdog.halts()}
     {}
@@ -26,16 +27,16 @@ public:
         return sample;
     }
 
-    /// As Rig::apply(), but with zero force when the watchdog has halted the device since the tick
-    /// began, or the gate is closed. In a dying program the device gets no command, and the
-    /// governor stands still.
+    /// Does the same as Rig::apply(), but with zero force if the watchdog has halted the device
+    /// since the tick began, or if the gate is closed. While the program is crashing, the device
+    /// gets no command, and the governor does not advance.
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now)
     {
         if (watchdog_.is_dying()) return {};
         if (withheld_ != Withheld::no) return rig_.withhold({}, false, now), base::Force{};
         if (watchdog_.halts() != halts_before_) return rig_.withhold(wanted, permitted, now);
         const base::Force force = rig_.apply(wanted, permitted, now);
-        // The force may have been on its way to the device when the watchdog halted that.
+        // The force may have been on its way to the device when the watchdog halted the device.
         if (watchdog_.is_dying() || watchdog_.halts() != halts_before_) rig_.device().halt();
         return force;
     }
@@ -48,7 +49,7 @@ public:
     }
     void on_cue(const device::Cue& cue) { rig_.on_cue(cue); }
 
-    /// The reason why force is withheld in this tick.
+    /// Returns the reason why force is withheld in this tick.
     [[nodiscard]] Withheld withheld() const { return withheld_; }
 
 private:

@@ -6,8 +6,8 @@
 
 namespace hapnet::peer::loop {
 
-/// Acts on every way out of a loop's scope: tells the device zero force, three times because a wire
-/// may lose one, and ends the watch over the loop.
+/// Sends zero force to the device on every way out of a loop's scope, three times because one
+/// message may be lost on the wire, and ends the watchdog's monitoring of the loop.
 class ZeroForceAtTheEnd {
 public:
     ZeroForceAtTheEnd(device::Device& device, Watchdog& watchdog)

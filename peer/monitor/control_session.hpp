@@ -13,11 +13,11 @@
 
 namespace hapnet::peer::monitor {
 
-/// Answers the clients of the control socket. The loop does the same with and without clients: it
-/// fills in its status every 50 ms, and the monitoring thread does everything else here.
+/// Answers the clients of the control socket. The loop does the same work with and without clients:
+/// it fills in its status every 50 ms. The monitoring thread does everything else here.
 class ControlSession {
 public:
-    /// All outlive it.
+    /// All parts must outlive it.
     struct Parts {
         control::Server& server;
         loop::Servo& servo;
@@ -34,11 +34,11 @@ public:
     ControlSession(const ControlSession&) = delete;
     ControlSession& operator=(const ControlSession&) = delete;
 
-    /// Call it this often. Clients are not served in between, so that none can keep the thread
-    /// busy: at most 800 requests a second are answered.
+    /// Serves the clients. Call it at the interval `every`. Clients are not served in between, so
+    /// none can keep the thread busy: at most 800 requests a second are answered.
     void serve(base::TimePoint now);
     static constexpr base::Duration every{std::chrono::milliseconds{10}};
-    /// Ample for every request.
+    /// The limits, which are sufficient for every request.
     static constexpr control::Server::Limits limits{.line_bytes = std::size_t{16} << 10,
                                                     .answers = 8};
 

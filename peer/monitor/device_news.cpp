@@ -41,7 +41,7 @@ Recovery recovery_of(const device::Device& device)
 
 std::string describe(const DeviceNews& news)
 {
-    if (news.change == DeviceChange::energy) return ""; // the summary at the end tells it
+    if (news.change == DeviceChange::energy) return ""; // the final summary reports it
     if (news.change == DeviceChange::calibration) {
         if (news.calibration == device::CalibrationStep::done) return "the device is calibrated";
         return std::string{device::describe(news.calibration)};

@@ -18,7 +18,8 @@ disk::Outcome<disk::Descriptor> opened(const std::string& path)
 {
     const auto place = disk::Place::find(path);
     if (!place) return tl::unexpected{place.error()};
-    // A FIFO is also opened for reading: opening the writing end alone would wait for a reader.
+    // A FIFO is also opened for reading, because opening only the writing end would wait for a
+    // reader.
     auto file = disk::open_to_write(*place, place->is_pipe() ? O_RDWR : O_WRONLY, 0644);
     if (file && place->is_regular() && ftruncate(file->number(), 0) != 0)
         return tl::unexpected{std::error_code{errno, std::generic_category()}};

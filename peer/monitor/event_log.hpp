@@ -12,7 +12,7 @@
 
 namespace hapnet::peer::monitor {
 
-/// Something that happened, for programs and, with words, for a person.
+/// An event, for programs and, if it has `words`, for a person.
 struct LoggedEvent {
     base::TimePoint at;
     std::string_view name;            // docs/formats/events.md lists all names
@@ -23,18 +23,18 @@ struct LoggedEvent {
 
 /// Returns the event's name in logs.
 [[nodiscard]] std::string_view name_of(Event event);
-/// Returns the event of a device's news. Its `words` are still empty.
+/// Returns the event for news about a device, without `words`.
 [[nodiscard]] LoggedEvent event_of(const loop::TimedDeviceNews& timed);
 
-/// The line of an event. `start`: of the session, as far as it is known.
+/// Returns the line of an event. `start` is that of the session, if known.
 [[nodiscard]] std::string line_of(const LoggedEvent& event, std::optional<base::TimePoint> start);
 
-/// The output of --events: a line of JSON for each event, written by a thread of its own. No thread
-/// waits for the reader. Lines that find no room are dropped and counted.
+/// The output of --events: a line of JSON for each event, written by a separate thread. No thread
+/// waits for the reader. Lines that do not fit are dropped and counted.
 class EventLog {
 public:
-    /// A file, which is emptied, a FIFO, which need not have a reader yet, or "-": `out`, which
-    /// outlives this. Throws std::system_error naming the file.
+    /// `place` is a file, which is emptied, a FIFO, which may have no reader yet, or "-" for `out`,
+    /// which must outlive this. Throws std::system_error naming the file.
     EventLog(const std::string& place, net::TextQueue& out);
 
     void put(const LoggedEvent& event, std::optional<base::TimePoint> start)

@@ -12,7 +12,7 @@
 
 namespace hapnet::peer::monitor {
 
-/// The last rows of a record, as they are written, in bounded memory: 20 s of two peers take 9 MB.
+/// The last rows of a record, encoded, in bounded memory: 20 s of two peers take 9 MB.
 class HeldRows {
 public:
     static constexpr std::size_t bytes_max = std::size_t{64} << 20;
@@ -21,8 +21,8 @@ public:
 
     void add(const record::Row& row);
 
-    /// The rows from that time on. The agreement with each of the others that held before it comes
-    /// first: the rest means nothing without it.
+    /// Returns the rows from `from` on. The last earlier agreement with each of the others comes
+    /// first, because the rows have no meaning without it.
     [[nodiscard]] std::string since(base::TimePoint from) const;
 
 private:
@@ -30,7 +30,8 @@ private:
         base::TimePoint at;
         record::SessionRow row;
     };
-    /// Agreements are noted once a second with each of at most seven others.
+    /// The largest number of agreements. One is noted each second with each of at most seven
+    /// others.
     static constexpr std::size_t terms_max = std::size_t{8} * 600;
 
     record::Layout layout_;

@@ -29,7 +29,7 @@ std::string words_on_waiting(const std::vector<std::uint16_t>& awaited, bool is_
                        awaited.size() == 1 ? "" : "s", fmt::join(awaited, ", "));
 }
 
-/// Turns words on the other peer of a pair into words on one of several peers.
+/// Adapts text about the other peer of a pair to one of several peers.
 std::string with_name(std::string_view words, std::uint16_t about)
 {
     std::string text{words};
@@ -58,7 +58,7 @@ std::string line_of(const StatusLine& status, const StatusLine& before, const Na
     if (!status.session) return words_on_waiting(status.awaited, named.others.size() <= 1);
     const double at = base::to_seconds(tick.due - status.session->start);
     if (at < 0.0) return fmt::format("starts in {:.1f} s", -at);
-    // Per 1000 ticks of the session, which are a second of it.
+    // The counts are per 1000 ticks of the session, which are one second.
     const auto ticks = status.ticks_in_session - before.ticks_in_session;
     const auto messages = status.messages - before.messages;
     const double rate =
@@ -84,7 +84,8 @@ std::string_view describe(net::SendOutcome outcome)
     switch (outcome) {
     case net::SendOutcome::sent:
     case net::SendOutcome::buffer_full: // passes soon
-    // The other host, or this one, has refused an earlier datagram: no program listens there yet.
+    // An earlier datagram was refused by the other host or this one, because no program listens
+    // there yet.
     case net::SendOutcome::refused: return "";
     case net::SendOutcome::no_route: return "there is no route to it; is the network up?";
     case net::SendOutcome::too_big: return "the network takes no datagrams of this size";
@@ -234,7 +235,7 @@ void Monitor::take(const record::Row& row)
     }
 }
 
-/// Notes the round trip by the echo in a message, on this side's clock alone.
+/// Notes the round trip from the echo in a message. It needs only this side's clock.
 void Monitor::note_round_trip(const loop::HeardMessage& heard)
 {
     const auto message = wire::decode(heard.message.bytes());
@@ -246,7 +247,7 @@ void Monitor::note_round_trip(const loop::HeardMessage& heard)
     shortest->second = std::min(shortest->second, took);
 }
 
-/// Tells once that the record has ended before its time.
+/// Reports once that the record has ended early.
 void Monitor::look_at_record()
 {
     if (recorder_) {

@@ -21,13 +21,13 @@
 
 namespace hapnet::peer::monitor {
 
-/// The values in the status line.
+/// The values that the status line shows.
 struct StatusLine {
     std::vector<std::uint16_t> awaited; // peers that have not answered yet; 0: any peer
     std::optional<record::TickRow> tick;
     std::optional<record::SessionRow> session;
-    /// The round trip to each of the others: the shortest since the line before, or the last that
-    /// was known.
+    /// The round trip to each of the others: the shortest since the previous line, or the last
+    /// known one.
     std::map<std::uint16_t, base::Duration> round_trips;
     std::uint64_t messages = 0;
     std::uint64_t ticks_in_session = 0;
@@ -35,51 +35,54 @@ struct StatusLine {
     net::SendOutcome sending = net::SendOutcome::sent; // outcome of the newest datagram
 };
 
-/// Names that appear in the texts for a person.
+/// Names for the texts for people.
 struct Named {
     std::uint16_t peer_id = 0;
     std::vector<std::uint16_t> others{0}; // the ids of the roster
     std::string body = "body";            // name of the first shared body
     bool has_several = false;             // several bodies are shared
 
-    /// "the cube"; "the bodies" where there are several.
+    /// Returns "the cube", or "the bodies" if there are several.
     [[nodiscard]] std::string shared() const { return has_several ? "the bodies" : "the " + body; }
 };
 
-/// Reads the journal of the servo thread: hands rows to the record and to clients that watch
-/// frames, prints events for a person, and draws a status line on a terminal (elsewhere a plain
-/// line every 5 s). It never waits: record and text are written by threads of their own.
+/// Reads the journal of the servo thread. Passes rows to the record and to clients that watch
+/// frames, prints events for people, and shows a status line on a terminal (elsewhere a plain line
+/// every 5 s). It never waits, because separate threads write record and text.
 class Monitor {
 public:
-    /// The most events that are told at once. Further ones are left out and counted: the network
-    /// must not fill a log.
+    /// The largest number of events that are shown at once. Others are left out and counted,
+    /// because the network must not be able to fill a log.
     static constexpr int events_at_once = 20;
     static constexpr base::Duration event_every{std::chrono::milliseconds{500}};
 
-    /// Text goes to `screen`, and each event to `log`, too, unless that is null; both outlive it.
+    /// Writes text to `screen`, and each event also to `log`, unless that is nullptr. Both must
+    /// outlive it.
     Monitor(loop::Journal& journal, net::TextQueue& screen, Recorder::Setup recording, Named named,
             EventLog* log = nullptr);
 
-    /// Reads everything in the journal. When the record cannot be written any more (a full disk),
-    /// it says so once and goes on without it.
+    /// Reads everything in the journal. If the record cannot be written any more (a full disk), it
+    /// says so once and continues without it.
     void drain();
-    /// Shows the status, if it is time to.
+    /// Shows the status if it is due.
     void show(base::TimePoint now);
     /// Notes the outcome of the newest datagram that was sent.
     void on_sending(net::SendOutcome outcome) { status_.sending = outcome; }
-    /// Something of which the journal does not know, for programs alone.
+    /// Notes an event that is not in the journal, for programs only.
     void note(const LoggedEvent& event);
-    /// After the servo has ended: reads the rest and closes the record, without waiting for that.
+    /// Reads the rest of the journal and closes the record, without waiting for it. Call it after
+    /// the servo has ended.
     void close();
-    /// True once the record is on the disk, as far as it will ever be. Call it after close().
+    /// True once the record is complete on the disk, or has been given up. Call it after close().
     [[nodiscard]] bool is_done() const { return !recorder_ || recorder_->is_done(); }
-    /// After close(): tells of a record that has failed meanwhile, and ends the line.
+    /// Reports a record that has failed since close(), and ends the status line. Call it after
+    /// close().
     void finish();
 
-    /// Begins a watch of frames of what is drained from now on.
+    /// Begins a watch of frames of the rows that are drained from now on.
     [[nodiscard]] control::FrameSource watch_frames() { return frames_.watch(); }
 
-    /// See Recorder.
+    /// Returns the same as Recorder::held().
     [[nodiscard]] std::optional<base::Duration> held() const
     {
         return recorder_ ? recorder_->held() : std::nullopt;
@@ -88,12 +91,13 @@ public:
 
     /// Returns the error that cut off the record; null: its file has taken all rows so far.
     [[nodiscard]] std::exception_ptr record_failure() const;
-    /// True if the record has every row so far, or will have. After close() it is false until
+    /// True if the record has all rows so far, or will have them. After close() it is false until
     /// is_done().
     [[nodiscard]] bool is_record_whole() const;
-    /// Rows that found no room on their way to the record.
+    /// Returns the number of rows that were dropped on their way to the record.
     [[nodiscard]] std::uint64_t rows_lost() const;
-    /// Rows that have reached the record: it grows as long as the disk takes them.
+    /// Returns the number of rows that have been written to the record. It grows as long as the
+    /// disk accepts them.
     [[nodiscard]] std::uint64_t rows_written() const
     {
         return recorder_ ? recorder_->written() : 0;
@@ -126,16 +130,16 @@ private:
     std::optional<base::TimePoint> next_show_;
 };
 
-/// Why nothing leaves, in words for a person; "" when it does, or soon will.
+/// Returns why nothing can be sent, as text for people; "" if messages are sent, or will be soon.
 [[nodiscard]] std::string_view describe(net::SendOutcome outcome);
 
-/// Describes news of the line to the other peer of two, with what to do about it.
+/// Describes news of the line to the only other peer, with what to do about it.
 [[nodiscard]] std::string_view describe(line::News news);
 
 /// Describes an event in a session of two for a person. `shared`: "the cube".
 [[nodiscard]] std::string describe(Event event, std::string_view shared);
 
-/// Describes an event in a session of more than two, and names the peer that it is about.
+/// Describes news in a session of more than two, and names the peer that it is about.
 [[nodiscard]] std::string describe_in_circle(line::News news, std::uint16_t about);
 [[nodiscard]] std::string describe_in_circle(Event event, std::string_view shared,
                                              std::uint16_t about);

@@ -14,15 +14,15 @@
 
 namespace hapnet::peer::monitor {
 
-/// Sends frames to a plotter as JSON over UDP, one object a datagram, in the form that the UDP
-/// server of PlotJuggler reads: {"timestamp":S,"peer_1":{...}}. Nothing is read back, and no
+/// Sends frames to a plotter as JSON over UDP, one object per datagram, in the form that the UDP
+/// server of PlotJuggler reads: {"timestamp":S,"peer_1":{...}}. Nothing is received, and no
 /// listener is needed.
 class PlotStream {
 public:
-    /// Throws std::system_error when no socket can be had.
+    /// Throws std::system_error if no socket can be created.
     PlotStream(const net::Endpoint& to, std::uint16_t peer_id, control::FrameSource frames);
 
-    /// Sends a frame when it is time to; of what was drained since the one before.
+    /// Sends a frame if it is due. It covers the rows drained since the previous one.
     void serve(base::TimePoint now);
 
     static constexpr base::Duration every{std::chrono::milliseconds{20}};

@@ -10,12 +10,12 @@
 
 namespace hapnet::peer::monitor {
 
-/// Lets a few things through at once, and then one each `every`: a bucket of tokens.
+/// A token bucket: admits a burst, and then one event per `every`.
 class RateLimit {
 public:
     RateLimit(int at_once, base::Duration every) : room_{at_once * every}, every_{every} {}
 
-    /// True if one more may pass at `now`, which never runs backwards.
+    /// True if one more event is admitted at `now`, which must not decrease.
     [[nodiscard]] bool admits(base::TimePoint now)
     {
         if (last_) level_ = std::max(base::Duration{0}, level_ - (now - *last_));

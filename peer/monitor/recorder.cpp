@@ -29,7 +29,7 @@ struct Recorder::State {
         kept_head = record::header_line(setup.config, setup.layout) + '\n';
     }
 
-    /// The writing thread.
+    /// Runs on the writing thread.
     void work()
     {
         record::Row row;
@@ -48,7 +48,7 @@ struct Recorder::State {
         is_done.store(true, std::memory_order_release);
     }
 
-    /// May take for ever, as all that the file is asked.
+    /// Writes a row. It may block forever, like every operation on the file.
     void write(const record::Row& row)
     {
         if (has_failed.load(std::memory_order_relaxed)) {
@@ -76,7 +76,7 @@ struct Recorder::State {
         writer.reset();
     }
 
-    /// Ends the record with what the file already has.
+    /// Ends the record with the rows that are already in the file.
     void fail()
     {
         lost.fetch_add(given - writer->rows(), std::memory_order_relaxed);
@@ -94,7 +94,7 @@ struct Recorder::State {
 
     static constexpr std::uint64_t rows_between_looks = 64; // 30 ms with two peers
 
-    // Members of the writing thread alone, up to `given`.
+    // The members up to `given` belong to the writing thread alone.
     std::optional<record::Writer> writer;
     std::optional<HeldRows> held;
     std::string kept_head; // first line of a file with held rows

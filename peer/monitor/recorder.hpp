@@ -16,13 +16,14 @@
 
 namespace hapnet::peer::monitor {
 
-/// A record that a thread of its own writes: a disk, a network drive or a pipe that does not take
-/// it delays no other thread. Rows that find no room are dropped and counted. The same thread holds
-/// the last rows in memory, where that is asked for, and saves them on order.
+/// A record that a separate thread writes, so that a slow disk, network drive or pipe delays no
+/// other thread. Rows that do not fit in the queue are dropped and counted. On request, the same
+/// thread keeps the last rows in memory, and saves them on order.
 class Recorder {
 public:
-    /// 8 s of ticks and messages of two peers with one body, 2 s of eight, 1 s of eight with eight
-    /// bodies: longer than most stalls of a disk.
+    /// The capacity of the queue: 8 s of ticks and messages of two peers with one body, 2 s of
+    /// eight peers, or 1 s of eight peers with eight bodies. This is longer than most stalls of a
+    /// disk.
     static constexpr std::size_t rows_max = 16384;
 
     struct Setup {
@@ -34,31 +35,33 @@ public:
     };
 
     explicit Recorder(Setup setup);
-    /// Waits for nothing: see is_done().
+    /// Does not wait for unwritten rows: see is_done().
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// From one thread. Never waits.
+    /// Adds a row. Never waits. Only one thread may call it.
     void put(const record::Row& row);
-    /// No more rows come: the record is finished and closed.
+    /// Ends the input: the record is completed and closed.
     void close();
 
-    /// The time span of the last rows that it holds; nullopt: none.
+    /// Returns the time span of the last rows in memory; nullopt: none are kept.
     [[nodiscard]] std::optional<base::Duration> held() const;
-    /// Orders a record of the rows since that time; gives its path. Never waits: the file appears,
-    /// whole, soon after. The error says why there will be none. From one thread.
+    /// Orders a record of the rows since `from`, and returns its path. Never waits: the complete
+    /// file appears soon after. The error says why there will be no file. Only one thread may call
+    /// it.
     [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
-    /// Returns once why an ordered record could not be written.
+    /// Returns why an ordered record could not be written. Each reason is returned once.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
-    /// After close(): whether nothing is left to do, as all is written or lost.
+    /// True if nothing is left to do, because all rows are written or lost. Call it after close().
     [[nodiscard]] bool is_done() const;
-    /// Returns the error that cut off the record; null: the file has taken all rows so far.
+    /// Returns the error that ended the record; nullptr if the file has accepted all rows so far.
     [[nodiscard]] std::exception_ptr failure() const;
-    /// Rows that are missing in the record: they found no room in the queue, or the file refused.
+    /// Returns the number of rows that are missing in the record, because the queue was full or the
+    /// file refused them.
     [[nodiscard]] std::uint64_t lost() const;
-    /// Rows that are written, ever: it grows as long as the disk takes them.
+    /// Returns the number of rows written so far. It grows as long as the disk accepts them.
     [[nodiscard]] std::uint64_t written() const;
 
 private:

@@ -48,7 +48,7 @@ std::string_view words_on_phase(const loop::ServoStatus& status)
     return "";
 }
 
-/// Says what keeps the force from the hand, and what to do; "" when nothing does.
+/// Returns why the hand gets no force, and what to do; "" if force is not withheld.
 std::string_view words_on(loop::Withheld withheld)
 {
     switch (withheld) {
@@ -62,7 +62,8 @@ std::string_view words_on(loop::Withheld withheld)
     return "";
 }
 
-/// The most important state: a stop, a fault, the calibration or the session, in this order.
+/// Returns the most important state: a stop, a fault, the calibration or the session, in this
+/// order.
 std::string_view state_of(const loop::ServoStatus& status)
 {
     if (status.withheld == loop::Withheld::by_emergency_stop) return "emergency_stop";

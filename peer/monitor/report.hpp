@@ -12,20 +12,20 @@
 
 namespace hapnet::peer::monitor {
 
-/// The configuration of a peer as records and statistics carry it.
+/// Returns the configuration of a peer in the form that records and statistics contain.
 [[nodiscard]] nlohmann::ordered_json configuration_json(const Options& options,
                                                         std::string_view device);
 
-/// The JSON that --stats writes at the end and that clients of the control socket get meanwhile,
-/// with the time since the first tick.
+/// Returns the JSON that --stats writes at the end. For clients of the control socket, which get it
+/// earlier, it has the time since the first tick.
 [[nodiscard]] nlohmann::ordered_json statistics_json(const Run& run,
                                                      std::optional<base::Duration> elapsed = {});
 
-/// The peer's settings and state for clients of the control socket, and the state in words for a
-/// person.
+/// Returns the peer's settings and state for clients of the control socket, and the state as text
+/// for people.
 [[nodiscard]] nlohmann::ordered_json show_json(const Run& run, const Recovery& recovery);
 
-/// A few lines for a person.
+/// Returns a summary of a few lines for people.
 [[nodiscard]] std::string summary(const Run& run);
 
 } // namespace hapnet::peer::monitor

@@ -8,7 +8,8 @@ namespace hapnet::peer::monitor {
 
 namespace {
 
-// A run is valid when 99 % of its ticks are at most this late and at most this share is missed.
+// The limits of a valid run: 99 % of its ticks are at most this late, and at most this share is
+// missed.
 constexpr base::Duration late_budget{std::chrono::milliseconds{1}};
 constexpr double missed_share_budget = 0.005;
 
@@ -36,8 +37,8 @@ std::optional<SessionReport> session_of(const loop::ServoStatus& status)
     return report;
 }
 
-/// Returns the status of all keys together: counts are sums, and there is an agreement when there
-/// is one with each.
+/// Returns the combined status of all keys: counts are added, and the keys count as agreed if each
+/// of them is.
 std::optional<line::Status::Key> all_keys(const loop::ServoStatus& status)
 {
     std::optional<line::Status::Key> all;
@@ -128,7 +129,7 @@ std::string why_not_valid(const Run& run)
         return fmt::format("p99 lateness {:.0f} us, more than {:.0f} us",
                            base::to_seconds(*p99) * 1e6, base::to_seconds(late_budget) * 1e6);
     }
-    // A fault that an operator has ended counts, too: the hand did not play meanwhile.
+    // A fault that an operator has ended also counts, because the hand did not take part meanwhile.
     if (const auto faults = run.status.governor.faults.total(); faults > 0) {
         return fmt::format("the device was at fault {}",
                            faults == 1 ? "once" : fmt::format("{} times", faults));

@@ -21,8 +21,8 @@
 
 namespace hapnet::peer::monitor {
 
-// The statistics that --stats writes and `stats` answers: docs/formats/statistics.md. Most of them
-// are the loop's own values.
+// The statistics that --stats writes and that `stats` returns, see docs/formats/statistics.md. Most
+// of them are copied from the status of the loop.
 
 /// The input of all reports.
 struct Run {
@@ -50,13 +50,13 @@ constexpr auto fields_of(base::Tag<BuildReport>)
                         base::member("compiler", &B::compiler, "What it was built with."));
 }
 
-/// The configuration of a peer as records and statistics carry it.
+/// The configuration of a peer in the form that records and statistics contain.
 struct PeerConfiguration {
     const Options* options = nullptr;
     std::string_view device;
     BuildReport build{};
 
-    /// nullopt with a device that is not simulated.
+    /// Returns nullopt if the device is not simulated.
     template <typename Tell>
     [[nodiscard]] std::optional<std::string> of_hand(const Tell& tell) const
     {
@@ -64,7 +64,7 @@ struct PeerConfiguration {
         return tell(options->device.person);
     }
 };
-/// Returns an option as it was given.
+/// Returns the value of an option.
 template <auto Option>
 inline constexpr auto option = [](const PeerConfiguration& one) -> const auto&
 {
@@ -124,7 +124,8 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
             "The machine's start; records of one share a clock, [mostly](record.md)."));
 }
 
-/// The session with the others. Among more than two, number and clock are of each other.
+/// The session with the others. With more than two peers, number and clock belong to each of the
+/// others.
 struct SessionReport {
     std::optional<std::uint32_t> number;
     std::uint64_t seed = 0;
@@ -149,7 +150,7 @@ constexpr auto fields_of(base::Tag<SessionReport>)
         base::member("clock_uncertainty_ms", &S::clock_uncertainty, "Its largest possible error."));
 }
 
-/// The clock of another peer against this one.
+/// The clock of another peer relative to this one.
 struct ClockReport {
     ClockEstimate estimate;
     bool is_in_doubt = false;
@@ -187,7 +188,7 @@ constexpr auto fields_of(base::Tag<AgeReport>)
                         base::member("peak_max", &AgeReport::peak_max));
 }
 
-/// The state messages to another peer, as far as its echoes tell.
+/// The state messages to another peer, as far as its echoes give information.
 struct PathTimes {
     PathReport measured;
 
@@ -233,14 +234,14 @@ constexpr auto fields_of(base::Tag<InwardPath>)
 
 [[nodiscard]] std::span<const loop::OtherStatus> others_of(const loop::ServoStatus& status);
 
-/// nullopt for 0, which stands for what is not known yet.
+/// Returns nullopt for 0, which means that a value is not known yet.
 template <typename Number>
 [[nodiscard]] constexpr std::optional<Number> unless_0(Number number)
 {
     return number != 0 ? std::optional{number} : std::nullopt;
 }
 
-/// One of the others.
+/// The report about one of the others.
 struct OtherReport {
     const loop::OtherStatus* status = nullptr;
 
@@ -284,7 +285,7 @@ constexpr auto fields_of(base::Tag<OtherReport>)
             "As `secure` of all, of the line to that peer."));
 }
 
-/// Messages, and what befell datagrams at the socket.
+/// Messages, and the outcomes of datagrams at the socket.
 struct MessagesReport {
     Counters counters;
     std::uint64_t strangers = 0;
@@ -307,7 +308,7 @@ constexpr auto fields_of(base::Tag<MessagesReport>)
             .counter("hapnet_peer_send_failures"));
 }
 
-/// The governor, and what else keeps force from a hand.
+/// The governor, and the other causes for withholding force.
 struct ForceReport {
     GovernorFigures governor;
     std::uint64_t watchdog_halts = 0;
@@ -352,7 +353,7 @@ constexpr auto fields_of(base::Tag<EnergyReport>)
         base::part(&E::figures));
 }
 
-/// All of it.
+/// All statistics of a peer.
 struct PeerStatistics {
     PeerConfiguration configuration;
     std::optional<SessionReport> session;
@@ -405,13 +406,13 @@ constexpr auto fields_of(base::Tag<PeerStatistics>)
             .gauge("hapnet_peer_elapsed")
             .left_out_if_none());
 }
-/// It refers to parts of the run.
+/// Returns the statistics, which refer to parts of `run`.
 [[nodiscard]] PeerStatistics statistics_of(const Run& run);
 
-/// The reason why the run is not valid as a measurement; "" when it is.
+/// Returns why the run is not valid as a measurement; "" if it is.
 [[nodiscard]] std::string why_not_valid(const Run& run);
 
-/// A refusal in words, with what to do about it.
+/// Returns the text of a refusal, with what to do about it.
 [[nodiscard]] std::string_view describe(wire::ByeReason reason);
 
 } // namespace hapnet::peer::monitor

@@ -10,7 +10,7 @@
 
 namespace hapnet::peer::self_test {
 
-/// Waits for the cable to be pulled: the loss has to show as a fault.
+/// Waits for the cable to be pulled. The step passes if the device then reports a fault.
 class CableStep {
 public:
     static constexpr base::Duration patience{std::chrono::seconds{30}};

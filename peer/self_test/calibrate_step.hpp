@@ -10,7 +10,7 @@
 
 namespace hapnet::peer::self_test {
 
-/// Waits until the device is calibrated and in a hand, and says what that takes.
+/// Waits until the device is calibrated and held, and prompts the person for what is missing.
 class CalibrateStep {
 public:
     static constexpr base::Duration patience{std::chrono::seconds{60}};

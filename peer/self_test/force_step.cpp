@@ -9,7 +9,7 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
-// Least share of the peak that must be reached: the governor ramps at the same time.
+// The least share of the peak that must be reached, because the governor ramps at the same time.
 constexpr double share_wanted = 0.75;
 
 } // namespace

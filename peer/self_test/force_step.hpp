@@ -10,20 +10,20 @@
 
 namespace hapnet::peer::self_test {
 
-/// The hand that keeps the dead man's button down.
+/// The hand that holds the dead man's button.
 enum class DeadMan : std::uint8_t { person, simulated_hand };
 
-/// A ramp to 0.2 N along x in 2 s, a second there, and down again, only while the primary button is
-/// held; the ramp begins again when it is held again. A button that is down from the start on may
-/// be stuck, or read the wrong way round, and could not be let go of: it counts once it was seen
-/// up.
+/// Applies a force along x that rises to 0.2 N in 2 s, stays for a second, and falls again. There
+/// is force only while the primary button is held; when it is held again, the ramp begins again. A
+/// button that is pressed from the start may be stuck or read inverted, so that it could not be
+/// released. It counts only after it was seen released.
 class ForceStep {
 public:
     static constexpr double peak_n = 0.2;
     static constexpr base::Duration ramp{std::chrono::seconds{2}};
     static constexpr base::Duration plateau{std::chrono::seconds{1}};
     static constexpr base::Duration patience{std::chrono::seconds{60}};
-    /// The time by which a governor has faded the force to zero.
+    /// The time within which a governor must have faded the force to zero.
     static constexpr base::Duration zero_after{std::chrono::milliseconds{100}};
 
     explicit ForceStep(DeadMan dead_man) : dead_man_{dead_man} {}
@@ -36,7 +36,7 @@ private:
     [[nodiscard]] static double wanted_n(base::Duration into);
 
     DeadMan dead_man_;
-    bool was_up_ = false; // the button was seen up
+    bool was_up_ = false; // the button was seen released
     std::optional<base::TimePoint> start_;
     std::optional<base::TimePoint> held_since_;
     std::optional<base::TimePoint> released_at_;

@@ -9,7 +9,7 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
-// A device that speaks less often than this share of its nominal rate is not fit for a session.
+// The least share of its nominal rate at which a device must report to be fit for a session.
 constexpr double rate_share_wanted = 0.5;
 constexpr std::size_t bar_most = 50; // characters
 

@@ -11,8 +11,9 @@
 
 namespace hapnet::peer::self_test {
 
-/// Reads without force: how often the device has something new to say, and how long it is silent.
-/// It is judged by the median of the time between two reports, as some rest while nothing moves.
+/// Reads without force. Measures how often the device has new data, and how long it is silent. The
+/// verdict uses the median interval between two reports, because some devices send nothing while
+/// they do not move.
 class ReadStep {
 public:
     ReadStep(base::Duration length, double nominal_hz) : length_{length}, nominal_hz_{nominal_hz} {}
@@ -20,7 +21,8 @@ public:
     [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
     [[nodiscard]] Outcome outcome() const;
 
-    /// The upper edges of the histogram's bins of the time between two reports; the last has none.
+    /// The upper edges, in ms, of the histogram's bins for the interval between two reports. The
+    /// last bin has no upper edge.
     static constexpr std::array edges_ms{0.5, 0.9, 1.1, 1.5, 2.0, 5.0, 20.0};
 
 private:

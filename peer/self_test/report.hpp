@@ -14,7 +14,7 @@
 
 namespace hapnet::peer::self_test {
 
-/// For a person.
+/// Returns the report for people.
 [[nodiscard]] std::string report_text(const device::Device& device, const SelfTest& test);
 
 /// The device's capabilities.
@@ -62,7 +62,7 @@ constexpr auto fields_of(base::Tag<TestedDevice>)
         base::member("capabilities", &T::can, "What it can do."));
 }
 
-/// The report that docs/use/hardware.md asks a person to send.
+/// The report that docs/use/hardware.md asks people to send.
 struct SelfTestReport {
     TestedDevice device;
     std::string_view version = base::version();
@@ -85,9 +85,9 @@ constexpr auto fields_of(base::Tag<SelfTestReport>)
         base::member("passed", &R::has_passed, "Finished, and no step failed."));
 }
 [[nodiscard]] SelfTestReport report_of(const device::Device& device, const SelfTest& test);
-/// The test came to its end, and no step failed.
+/// True if the test was completed and no step failed.
 [[nodiscard]] bool has_passed(const SelfTest& test);
-/// True if its step with force was done and passed.
+/// True if the step with force was done and passed.
 [[nodiscard]] bool has_shown_force(const SelfTest& test);
 
 } // namespace hapnet::peer::self_test

@@ -9,7 +9,7 @@ namespace hapnet::peer::self_test {
 
 namespace {
 
-/// A pointer without motors may rest while no hand touches it.
+/// Returns the required rate. A pointer without motors may send nothing while no hand touches it.
 double rate_wanted_hz(const device::Capabilities& capabilities)
 {
     return capabilities.axes_out > 0 ? capabilities.rate_hz : 0.0;

@@ -18,25 +18,26 @@ namespace hapnet::peer::self_test {
 /// The settings of a self-test.
 struct Plan {
     device::Capabilities capabilities{};
-    bool is_real = true; // a person holds it, and it has a cable
+    bool is_real = true; // a person holds the device, and it has a cable
     base::Duration read_for{std::chrono::seconds{10}};
     std::vector<std::string> skip{}; // names of steps
 };
 
-/// The steps one after the other. Does no I/O and reads no clock: call on_tick() once a tick.
+/// Runs the steps one after the other. Does no I/O and reads no clock: call on_tick() once a tick.
 class SelfTest {
 public:
     explicit SelfTest(const Plan& plan);
 
-    /// The request for this tick. `is_done` refers to the whole test.
+    /// Returns the request for this tick. `is_done` refers to the whole test.
     [[nodiscard]] StepRequest on_tick(const StepInput& input, base::TimePoint now);
 
-    /// Outcomes of the finished and the skipped steps; after the test, of every step.
+    /// Returns the outcomes of the finished and the skipped steps. After the test these are all
+    /// steps.
     [[nodiscard]] const std::vector<Outcome>& outcomes() const { return outcomes_; }
-    /// Breaks the test off: the current step and all later ones are skipped.
+    /// Stops the test: the current step and all later ones are skipped.
     void stop() { skip_rest("the test was broken off"); }
-    /// Every step was done or skipped by choice: the test was not broken off, and the device stayed
-    /// connected.
+    /// True if every step was done or was skipped by choice. The test was then not stopped, and the
+    /// device stayed connected.
     [[nodiscard]] bool is_finished() const { return at_ == steps_.size() && !is_cut_short_; }
 
 private:

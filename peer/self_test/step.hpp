@@ -23,20 +23,20 @@ using base::name_of;
 /// The instruction for the person.
 enum class Prompt : std::uint8_t {
     nothing,
-    hold_still, // reports are read
+    hold_still, // the step reads reports
     wait,       // the device is calibrating
     dock,
     sweep,
     undock,
     release_button,
     hold_button,
-    keep_button, // the force is applied
+    keep_button, // the step applies force
     pull_cable,
 };
-/// For a person; "" for nothing.
+/// Returns the text of a prompt for people; "" for nothing.
 [[nodiscard]] std::string_view describe(Prompt prompt);
 
-/// The result of a step, and what it has measured.
+/// The result of a step, with its measurements.
 struct Outcome {
     std::string_view step;
     Verdict verdict = Verdict::skipped;
@@ -72,10 +72,10 @@ constexpr auto fields_of(base::Tag<Outcome>)
 struct StepInput {
     device::Sample sample;
     device::CalibrationStep calibration = device::CalibrationStep::done;
-    base::Force applied; // force of the tick before, at the hand
+    base::Force applied; // force of the previous tick, at the hand
 };
 
-/// The request of a step to the device in a tick.
+/// The request of a step to the device for a tick.
 struct StepRequest {
     base::Force wanted{};
     bool permitted = false;

@@ -21,7 +21,7 @@ base::Result<Loaded> open(const std::string& file)
     if (file.empty()) {
         return base::fail("shared-object: says no file; write file = \"./FILE.so\"");
     }
-    // A name without a slash would be looked for among the system's libraries.
+    // A name without a slash would be searched for among the system's libraries.
     const std::string path = file.find('/') == std::string::npos ? "./" + file : file;
     const std::shared_ptr<void> library{dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL),
                                         [](void* opened) {

@@ -13,20 +13,21 @@
 
 namespace hapnet::base {
 
-/// A text, and the name that errors give it.
+/// A text, and the name by which error messages refer to it.
 struct NamedText {
     std::string source;
     std::string text;
 };
 
-/// A text that a program carries with it, for those who have no file of it.
+/// A text that is compiled into a program, so that it is available without a file.
 struct BuiltInText {
     std::string_view name;
     std::string text;
 };
 
-/// The built-in text of that name, or else the file that `open` gives the text of. `kind` is what
-/// the text describes, for errors: "a scene". BuiltIn has `name`, without .toml, and `text`.
+/// Returns the built-in text with the given name. If there is none, returns the text of the file
+/// with that name, as `open` gives it. `kind` says in errors what the text describes: "a scene".
+/// BuiltIn has the members `name`, without .toml, and `text`.
 template <typename BuiltIn>
 [[nodiscard]] Result<NamedText> find_text(const std::string& file_or_name,
                                           std::span<const BuiltIn> all, std::string_view kind,

@@ -15,8 +15,8 @@
 
 namespace hapnet::base {
 
-/// The number whose bytes in memory, on this machine, are those of `value` in little-endian order,
-/// and the other way round.
+/// Returns the number whose bytes in this machine's memory are the little-endian bytes of `value`.
+/// The function is its own inverse.
 template <std::unsigned_integral T>
 [[nodiscard]] constexpr T in_little_endian(T value)
 {
@@ -31,8 +31,8 @@ template <std::unsigned_integral T>
     }
 }
 
-/// Reads little-endian fields one after another. Running short is remembered, not reported at
-/// each field: read straight through, then ask complete() once.
+/// Reads little-endian fields one after another. The reader remembers a read beyond the end and
+/// does not report it at each field: read all fields, then call complete() once.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : left_{bytes} {}
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] float f32() { return std::bit_cast<float>(u32()); }
     [[nodiscard]] double f64() { return std::bit_cast<double>(u64()); }
 
-    /// The next `count` bytes; empty when fewer are left.
+    /// Returns the next `count` bytes, or an empty span when fewer are left.
     [[nodiscard]] std::span<const std::byte> raw(std::size_t count)
     {
         if (!has(count)) return {};
@@ -56,13 +56,13 @@ public:
 
     /// True if at least `count` bytes are left.
     [[nodiscard]] bool holds(std::size_t count) const { return left_.size() >= count; }
-    /// True if no read has run short.
+    /// True if no read has gone beyond the end.
     [[nodiscard]] bool ok() const { return !short_; }
-    /// True if no read has run short and no byte is left over.
+    /// True if no read has gone beyond the end and no byte is left over.
     [[nodiscard]] bool complete() const { return !short_ && left_.empty(); }
 
 private:
-    /// True if `count` bytes are left. After the first false, no byte is left.
+    /// Returns true if `count` bytes are left. After the first false, the rest is discarded.
     [[nodiscard]] bool has(std::size_t count)
     {
         if (left_.size() >= count) [[likely]]
@@ -86,7 +86,7 @@ private:
     bool short_ = false;
 };
 
-/// Writes little-endian fields one after another into a buffer that is large enough.
+/// Writes little-endian fields one after another into a buffer, which must be large enough.
 class ByteWriter {
 public:
     explicit ByteWriter(std::span<std::byte> buffer) : buffer_{buffer}, left_{buffer} {}

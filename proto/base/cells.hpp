@@ -11,26 +11,28 @@
 
 namespace hapnet::base {
 
-/// The style of a table's cells in their lines.
+/// The way in which the cells of a table are written in a line.
 struct CellStyle {
-    char separator = ',';      // ' ': any number of blanks and tabs
-    bool trims_blanks = false; // drops blanks around each cell; always with separator ' '
+    char separator = ',';      // ' ' stands for any number of blanks and tabs
+    bool trims_blanks = false; // drops blanks around each cell; separator ' ' always does
 };
 
-/// Takes lines of cells off a text (RFC 4180). A cell in quotes may hold separators, ends of lines
-/// and, doubled, quotes.
+/// Splits a text into lines of cells (RFC 4180). A cell in quotes may contain separators, line ends
+/// and doubled quotes.
 class Cells {
 public:
     explicit Cells(CellStyle style) : style_{style} {}
 
-    /// Takes the first line off a text that is not empty. False when a quote is open or stands
-    /// inside a cell: the text is then of no further use.
+    /// Takes the first line off a text, which must not be empty. Returns false when a quote is not
+    /// closed or stands inside an unquoted cell. The text cannot be read further then.
     [[nodiscard]] bool take_line(std::string_view& text);
 
-    /// The cells of the line that was taken last, until the next one is.
+    /// Returns the cells of the line that was taken last. They are valid until the next
+    /// take_line().
     [[nodiscard]] std::span<const std::string_view> all() const { return cells_; }
 
-    /// The number of lines of the text that the last line of cells takes: quotes may hold ends.
+    /// Returns the number of text lines that the last line of cells takes up. It can be more than
+    /// one, because cells in quotes may contain line ends.
     [[nodiscard]] std::size_t lines() const { return lines_; }
 
 private:

@@ -27,7 +27,7 @@ std::string names_of_units(std::span<const ColumnUnit> units)
     return text;
 }
 
-/// The place of a column that a person has named, in a header or by its number.
+/// Returns the index of a column that the user has named by its header or by its number.
 std::optional<std::size_t> place_of(LineCells cells, const std::string& name)
 {
     const auto found = std::ranges::find(cells, name);
@@ -39,7 +39,7 @@ std::optional<std::size_t> place_of(LineCells cells, const std::string& name)
 
 using FoundColumn = Result<std::optional<NumberColumn>>;
 
-/// The column that a person has named.
+/// Finds the column that the user has named.
 FoundColumn find_named(LineCells cells, const ColumnKind& want, const Column& column)
 {
     const auto at = place_of(cells, column.name);
@@ -63,7 +63,7 @@ FoundColumn find_named(LineCells cells, const ColumnKind& want, const Column& co
                             want.units.empty() ? "none" : "one of " + names_of_units(want.units)));
 }
 
-/// The column "<what>_<unit>", or the one that a person has named, if there is one.
+/// Finds the column that the user has named, or else the column "<what>_<unit>".
 FoundColumn find_column(LineCells cells, const ColumnKind& want, const Columns& columns)
 {
     for (const Column& column : columns) {
@@ -90,7 +90,7 @@ FoundColumn find_column(LineCells cells, const ColumnKind& want, const Columns& 
     return found;
 }
 
-/// All words but the first: "delay, loss, lost or rate".
+/// Returns all words but the first, as a list: "delay, loss, lost or rate".
 std::string rest_of(std::span<const std::string_view> words)
 {
     std::string text;
@@ -105,7 +105,7 @@ bool is_value(std::string_view cell) { return number_in(cell).has_value() || say
 
 bool has_only_values(LineCells cells) { return std::ranges::all_of(cells, is_value); }
 
-/// The cells of a table's first line, cut in one of the possible ways.
+/// The cells of a table's first line, for one of the possible separators.
 struct FirstLine {
     char separator = ';';
     std::vector<std::string> cells;
@@ -138,7 +138,7 @@ private:
         const auto line = LineReader{lines}.next_cells(cells);
         if (!line || !*line || (*line)->size() < cells_min) return;
         FirstLine way{separator, {(*line)->begin(), (*line)->end()}};
-        // Blanks also stand within a text.
+        // A text can also contain blanks.
         if (separator == ' ' && !has_only_values(way.cells) && !finds_columns(way.cells)) return;
         ways_.push_back(std::move(way));
     }
@@ -166,8 +166,8 @@ private:
                });
     }
 
-    /// True if a line with these cells has all columns that were asked for. Where a person
-    /// has numbered them, the strict way wants numbers in all cells.
+    /// True if a line with these cells has all columns that were asked for. If the user has
+    /// numbered them, `is_strict` requires numbers in all cells.
     [[nodiscard]] bool has_what_is_wanted(LineCells cells, bool is_strict) const
     {
         const bool is_numbered = std::ranges::any_of(columns_, [&](const Column& one) {
@@ -199,7 +199,7 @@ private:
                                 shortened(line_)));
     }
 
-    /// The first kind that a line lacks.
+    /// Returns the first kind that a line lacks.
     [[nodiscard]] const ColumnKind& missing_in(LineCells cells) const
     {
         const auto lacks = [&](const ColumnKind& kind) {
@@ -209,7 +209,7 @@ private:
         return found == kinds_.end() ? kinds_.front() : *found;
     }
 
-    /// The line lacks a column.
+    /// Returns the result for a line that lacks a column.
     [[nodiscard]] Result<TableLayout> without_columns() const
     {
         const FirstLine* most = nullptr;
@@ -244,7 +244,7 @@ private:
     std::string_view line_;
     std::span<const ColumnKind> kinds_;
     const Columns& columns_;
-    std::vector<FirstLine> ways_; // ways to cut the first line into cells
+    std::vector<FirstLine> ways_; // possible divisions of the first line
 };
 
 } // namespace

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t path_bytes_max = 200;
 
-/// The longer signs first: ">=" begins as ">" does.
+/// Longer operators come first, because ">=" begins with ">".
 constexpr std::array comparisons{Comparison::at_most, Comparison::at_least, Comparison::equal,
                                  Comparison::unequal, Comparison::less,     Comparison::more};
 

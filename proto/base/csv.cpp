@@ -31,7 +31,7 @@ struct CellScale {
     std::optional<double> ns_per_unit{}; // for times
 };
 
-/// The text of a value.
+/// Returns the text of a value.
 std::string cell_text(const ValueKind& kind, const void* value, const CellScale& scale)
 {
     if (kind.shape == Shape::maybe) {
@@ -81,7 +81,7 @@ std::optional<Leaf> leaf_in(std::string_view cell, Shape shape)
     }
 }
 
-/// The rows that a table of these values has as columns.
+/// Returns the rows that become columns of a table of these values.
 std::vector<const FieldRow*> columns_for(const FieldTable& fields,
                                          std::span<const void* const> values)
 {
@@ -97,7 +97,7 @@ std::vector<const FieldRow*> columns_for(const FieldTable& fields,
     return columns;
 }
 
-/// The texts that text(row) gives, with commas.
+/// Joins the texts that text(row) returns with commas.
 template <typename TextOf>
 std::string with_commas(std::span<const FieldRow* const> columns, const TextOf& text)
 {

@@ -12,10 +12,10 @@
 
 namespace hapnet::base {
 
-// Tables of comma-separated values (RFC 4180): one header line, then as many cells a line. The
-// columns of a struct are its fields (fields.hpp), whose keys name their units.
+// Tables of comma-separated values (RFC 4180): one header line, then lines with as many cells. The
+// columns of a struct are its fields (fields.hpp), whose keys contain their units.
 
-/// The lines of a table as they stand in a text.
+/// The lines of a table, unparsed.
 struct CsvTable {
     struct Line {
         std::size_t number = 0; // number of the line in the text, from 1
@@ -27,28 +27,29 @@ struct CsvTable {
     std::vector<Line> lines;
 };
 
-/// `path` names the text in errors, which begin with "PATH:LINE: ".
+/// Splits a text into the lines of a table. Errors begin with "PATH:LINE: ", where PATH is `path`.
 [[nodiscard]] Result<CsvTable> parse_csv(std::string_view text, const std::string& path);
 
-/// A cell as it stands in a line: in quotes if it has to be.
+/// Returns a cell as it is written in a line: in quotes if it needs them.
 [[nodiscard]] std::string csv_quoted(std::string_view cell);
 
-/// A number with a fixed number of decimals, in a column. Elsewhere it is any number.
+/// A format that writes a number with a fixed number of decimals in CSV. Elsewhere it is the same
+/// as Number.
 struct Decimals : Number {
     int decimals = 0;
 
     explicit constexpr Decimals(int count) : decimals{count} {}
 };
 
-/// The format of a column that stands in a table only where one of its lines has something in it.
-/// Its member is an optional.
+/// The format of a column that the table omits if no line has a value in it. Its member is an
+/// optional.
 template <typename Format>
 struct Spare : Format {
     static constexpr bool is_spare = true;
 };
 
-// The notation of values in cells: a number that is not finite, and an optional without a value, is
-// empty.
+// Values as cells. The cell is empty for a number that is not finite and for an optional without a
+// value.
 
 [[nodiscard]] std::string cell_of(const ValueKind& kind, const void* value);
 /// Reads a cell into `value`. Returns false when the cell holds no such value.
@@ -68,28 +69,28 @@ template <typename T>
     return read_cell(kind_of<T>(), cell, &value);
 }
 
-// Tables of structs, by the tables of their fields.
+// Functions that write tables of structs by their field tables.
 
-/// `a,b,c`, without a line's end.
+/// Returns the header line `a,b,c`, without a line end.
 [[nodiscard]] std::string csv_header(const FieldTable& fields);
-/// The cells of a struct, without a line's end.
+/// Returns the cells of a struct, without a line end.
 [[nodiscard]] std::string csv_line(const FieldTable& fields, const void* value);
 [[nodiscard]] std::string csv_text(const FieldTable& fields, std::span<const void* const> values);
-/// `a,b,c`, without a line's end.
+/// Returns the header line `a,b,c`, without a line end.
 template <Described T>
 [[nodiscard]] std::string csv_header()
 {
     return csv_header(field_table<T>());
 }
 
-/// The cells of a value, without a line's end.
+/// Returns the cells of a value, without a line end.
 template <Described T>
 [[nodiscard]] std::string csv_line(const T& value)
 {
     return csv_line(field_table<T>(), &value);
 }
 
-/// Header and lines, without the spare columns that no value fills.
+/// Returns the header and all lines. Spare columns that have no value in any line are left out.
 template <Described T>
 [[nodiscard]] std::string csv_text(const std::vector<T>& values)
 {

@@ -13,10 +13,10 @@
 
 namespace hapnet::base {
 
-// One description of a struct's fields, beside the struct. Reading and printing TOML, ranges and
-// their errors, and tables of keys (fields.hpp), JSON (fields_json.hpp), CSV (csv.hpp), ramps
-// (ramp.hpp), and what programs tell of a run (proto/output) follow from it, so that none of them
-// can forget a field:
+// A description of a struct's fields, written once beside the struct. Everything else is derived
+// from it, so that no code can forget a field: TOML with ranges, errors and tables of keys
+// (fields.hpp), JSON (fields_json.hpp), CSV (csv.hpp), ramps (ramp.hpp), and the reports of
+// programs on a run (proto/output).
 //
 //     struct Burst {
 //         std::uint32_t lost = 1;
@@ -32,62 +32,62 @@ namespace hapnet::base {
 //             cycle the run begins"));
 //     }
 
-/// A name of Prometheus, and what kind of figure it is. A counter only grows.
+/// The name of a Prometheus metric, and its type: a counter only grows.
 struct Metric {
-    std::string_view name; // without the unit; empty: the field itself is no metric
+    std::string_view name; // without the unit; empty: the field itself is not a metric
     bool is_counter = false;
     std::string_view label; // label of the metrics below this field
 };
 
 /// The way in which programs print a field. Words and names are for the readers of the output.
 struct Telling {
-    /// The words behind a count, in a line for people: "in flight". A map has the names
-    /// of its elements there instead.
+    /// The words after the count in a line for people: "in flight". In a map, the names of its
+    /// elements take their place.
     std::optional<std::string_view> words;
-    bool is_told_always = false; // even a count of 0 is printed
+    bool is_told_always = false; // a count of 0 is printed, too
     Metric metric;
     std::optional<int> decimals;      // decimals in JSON; nullopt: as many as needed
-    bool is_left_out_if_none = false; // no key without a value; otherwise null
+    bool is_left_out_if_none = false; // no key if there is no value; false: null
     bool is_without_zeros = false;    // maps in JSON leave out counts that are 0
 };
 
-/// The ways to say how a field is printed, for a description that is a `Self`.
+/// Functions that set how a field is printed, for a description of type `Self`.
 template <typename Self>
 struct Told {
     Telling telling{};
 
-    /// Printed for people as a line with these words after the count, unless the count is 0.
+    /// Prints the field for people as a count followed by these words, unless the count is 0.
     [[nodiscard]] constexpr Self told(std::string_view words) const
     {
         return with([&](Telling& t) { t.words = words; });
     }
-    /// Like told(), and printed even if the count is 0.
+    /// Prints the field like told(), even if the count is 0.
     [[nodiscard]] constexpr Self always_told(std::string_view words) const
     {
         return with([&](Telling& t) { t.words = words, t.is_told_always = true; });
     }
-    /// A metric that only grows. Times are in seconds, whatever unit the key has.
+    /// Makes the field a metric that only grows. Times are in seconds, in whatever unit the key is.
     [[nodiscard]] constexpr Self counter(std::string_view name, std::string_view label = {}) const
     {
         return with([&](Telling& t) { t.metric = {name, true, label}; });
     }
-    /// A metric that may fall.
+    /// Makes the field a metric that may fall.
     [[nodiscard]] constexpr Self gauge(std::string_view name) const
     {
         return with([&](Telling& t) { t.metric = {name, false, {}}; });
     }
-    /// The fields below this one are metrics with this label. The label's value is the field's key,
-    /// or the names of a map.
+    /// Gives this label to the metrics below this field. The label's value is the key of this
+    /// field, or, if it is a map, the name of the element.
     [[nodiscard]] constexpr Self label(std::string_view label) const
     {
         return with([&](Telling& t) { t.metric = {{}, false, label}; });
     }
-    /// JSON has the number with this many decimals.
+    /// Writes the number in JSON with this many decimals.
     [[nodiscard]] constexpr Self rounded(int decimals) const
     {
         return with([&](Telling& t) { t.decimals = decimals; });
     }
-    /// JSON has no such key where there is no value, or an empty list.
+    /// Leaves the key out of the JSON if there is no value, or the list is empty.
     [[nodiscard]] constexpr Self left_out_if_none() const
     {
         return with([](Telling& t) { t.is_left_out_if_none = true; });
@@ -103,8 +103,8 @@ private:
     }
 };
 
-/// A member of a struct: its key, the format of its values, and a few words about it. An optional
-/// without a value is left out, or written as `absent`.
+/// A member of a struct, with its key, the format of its values, and a short description. An
+/// optional without a value is left out, or written as the word `absent`.
 template <typename Struct, typename Value, typename Format>
 struct Field : Told<Field<Struct, Value, Format>> {
     using Owner = Struct;
@@ -124,28 +124,29 @@ struct Field : Told<Field<Struct, Value, Format>> {
         : key{its_key}, member{its_member}, format{its_format}, about{its_about}
     {}
 
-    /// This field, as one that a text has to contain.
+    /// Returns this field, marked as one that a text must contain.
     [[nodiscard]] constexpr Field required() const
     {
         Field copy = *this;
         copy.is_required = true;
         return copy.always();
     }
-    /// This field, printed even if it has its default.
+    /// Returns this field, marked to be printed even if it has its default.
     [[nodiscard]] constexpr Field always() const
     {
         Field copy = *this;
         copy.is_always_printed = true;
         return copy;
     }
-    /// This field, printed even if it has its default when the bool member `other` is set.
+    /// Returns this field, marked to be printed even if it has its default, provided that the bool
+    /// member `other` is true.
     [[nodiscard]] constexpr Field if_set(bool Struct::*other) const
     {
         Field copy = *this;
         copy.printed_if = other;
         return copy;
     }
-    /// This field, whose missing value is written as a word such as "never".
+    /// Returns this field, whose missing value is written as a word such as "never".
     [[nodiscard]] constexpr Field absent_as(std::string_view word) const
     {
         Field copy = *this;
@@ -154,17 +155,17 @@ struct Field : Told<Field<Struct, Value, Format>> {
     }
 };
 
-/// A member that is a struct with fields of its own, which stand among those of the whole.
+/// A member that is a described struct. Its fields are listed among those of the outer struct.
 template <typename Struct, typename Value>
 struct Part {
     Value Struct::*member;
     bool is_without_zeros = false;
 
-    /// This part without counts of 0 in the JSON of its maps.
+    /// Returns this part. The JSON of its maps leaves out counts of 0.
     [[nodiscard]] constexpr Part without_zeros() const { return {member, true}; }
 };
 
-/// A figure that `Compute`, a lambda without captures, computes from the struct. It is printed and
+/// A figure that `Compute`, a lambda without captures, computes from the struct. It is printed but
 /// never read.
 template <typename Struct, typename Compute>
 struct Computed : Told<Computed<Struct, Compute>> {
@@ -176,13 +177,13 @@ struct Computed : Told<Computed<Struct, Compute>> {
     {}
 };
 
-/// A struct with fields of its own that `Compute` finds, which stand among those of the whole.
+/// A described struct that `Compute` finds. Its fields are listed among those of the outer struct.
 template <typename Struct, typename Compute>
 struct ComputedPart {};
 
 template <typename... Members>
 struct Fields {
-    std::string_view name; // name of the struct where a text names it: the law of a loss
+    std::string_view name; // name of the struct, if texts contain it: the law of a loss
     std::tuple<Members...> members;
 };
 
@@ -210,7 +211,7 @@ requires FormatOf<Format, WithoutOptional<Value>>
     return Field<Struct, Value, Format>{key, member, format, about};
 }
 
-/// A field with the usual format of the member's type.
+/// Describes a field with the usual format of the member's type.
 template <typename Struct, typename Value>
 [[nodiscard]] constexpr auto field(std::string_view key, Value Struct::*member,
                                    std::string_view about = {})
@@ -218,10 +219,11 @@ template <typename Struct, typename Value>
     return Field<Struct, Value, UsualFormat<Value>>{key, member, {}, about};
 }
 
-/// The format of what is not written in TOML: rows of bytes, cells and JSON go by the type.
+/// The format of a member that is not written in TOML. Rows of bytes, CSV cells and JSON depend on
+/// the type alone.
 struct Unwritten {};
 
-/// A member that is not written in TOML.
+/// Describes a member that is not written in TOML.
 template <typename Struct, typename Value>
 [[nodiscard]] constexpr auto member(std::string_view key, Value Struct::*member,
                                     std::string_view about = {})
@@ -235,8 +237,8 @@ template <typename Struct, typename Value>
     return Part<Struct, Value>{member};
 }
 
-/// A figure of a Struct that is not a member: computed<Link>("p50", [](const Link& link) { … }).
-/// The lambda returns a value, or a reference to one that lasts as long as the struct.
+/// Describes a figure of a Struct that is not a member: computed<Link>("p50", [](const Link& link)
+/// { … }). The lambda returns a value, or a reference to a value that lasts as long as the struct.
 template <typename Struct, typename Compute>
 [[nodiscard]] constexpr auto computed(std::string_view key, Compute /*by its type*/,
                                       std::string_view about = {})
@@ -244,7 +246,7 @@ template <typename Struct, typename Compute>
     return Computed<Struct, Compute>{key, about};
 }
 
-/// Fields of a described struct to which the lambda returns a reference.
+/// Describes the fields of a described struct to which the lambda returns a reference.
 template <typename Struct, typename Compute>
 [[nodiscard]] constexpr auto computed_part(Compute /*by its type*/)
 {
@@ -260,11 +262,11 @@ template <typename... Members>
 template <Described T>
 inline constexpr auto description = fields_of(Tag<T>{});
 
-/// The name in the description of T.
+/// The name that the description of T gives.
 template <Described T>
 inline constexpr std::string_view described_name = description<T>.name;
 
-/// The words about a member: about<&Burst::lost>().
+/// Returns the short description of a member: about<&Burst::lost>().
 template <auto wanted>
 [[nodiscard]] constexpr std::string_view about()
 {
@@ -282,8 +284,8 @@ template <auto wanted>
     }(wanted);
 }
 
-/// Calls visit(field, member...) for every field of a T that is a member, with that member of each
-/// value.
+/// Calls visit(field, member...) for every field of a T that is a member. `member...` are that
+/// member of each of the values.
 template <typename Visit, typename First, typename... More>
 constexpr void for_each_field(const Visit& visit, First&& first, More&&... more)
 {
@@ -291,7 +293,7 @@ constexpr void for_each_field(const Visit& visit, First&& first, More&&... more)
     const auto one = [&](const auto& member) {
         using Member = std::remove_cvref_t<decltype(member)>;
         if constexpr (detail::is_computed<Member>) {
-            // It is no member.
+            // A computed figure is not a member.
         } else if constexpr (detail::is_part<Member>) {
             for_each_field(visit, first.*member.member, more.*member.member...);
         } else {
@@ -301,8 +303,8 @@ constexpr void for_each_field(const Visit& visit, First&& first, More&&... more)
     std::apply([&](const auto&... member) { (one(member), ...); }, description<T>.members);
 }
 
-/// The format of a member that is a described struct: a table in the table. fields.hpp has what
-/// reads and prints it.
+/// The format of a member that is a described struct: a nested table. fields.hpp has the functions
+/// that read and print it.
 struct Table {
     template <Described T>
     void read(const Node& node, T& target, Reading& reading) const;

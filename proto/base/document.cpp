@@ -10,18 +10,20 @@
 #include <optional>
 #include <spdlog/fmt/fmt.h>
 
-// The shared library is built with exceptions; here a wrong text is a value.
+// The shared library is built with exceptions. Here a parse error is a value.
 #undef TOML_HEADER_ONLY
 #define TOML_HEADER_ONLY 1
 #undef TOML_SHARED_LIB
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
 #define TOML_MAX_NESTED_VALUES 16
-// Version 3.3 asserts, and in a release even assumes, what a text need not keep to ("[@"); the code
-// behind it finds the error all the same. Without both, that is what happens.
+// Version 3.3 contains assertions, and in a release build assumptions, that a text can violate
+// ("[@"). The code after them would report the error. These definitions disable both, so that it
+// does.
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_assert(true)
-// Nor do its tables of letters hold every letter ("[\uFBDF"): what they miss is then none of them.
+// The library also assumes that its character tables are complete, which they are not ("[\uFBDF").
+// A character that is missing in them is treated as not being in the class.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -40,8 +42,8 @@ Place place_of(const toml::source_region& region)
 }
 
 /// Refuses text that would crash the library: a key with so many parts that its nested tables
-/// exhaust the stack. The library's own limit counts only values. Strings over several lines are
-/// refused, too, so that each line can be read on its own.
+/// exhaust the stack. The library's own limit counts only values. Strings of several lines are
+/// refused, too, so that each line can be checked separately.
 class TextCheck {
 public:
     [[nodiscard]] std::optional<DocumentError> run(std::string_view text)
@@ -55,7 +57,8 @@ public:
 private:
     static constexpr std::uint32_t dots_max = 256; // dots in one line, outside of strings
 
-    /// Bytes that no text has, neither in TOML nor elsewhere: of a program, a picture, an archive.
+    /// True for a byte that no text contains, in TOML or otherwise. It comes from a program, an
+    /// image or an archive.
     [[nodiscard]] static bool is_of_no_text(char c)
     {
         const auto byte = static_cast<unsigned char>(c);
@@ -151,7 +154,7 @@ tl::expected<Node, DocumentError> convert(const toml::node& node)
                                                "duration is written as a string: \"10s\""}};
 }
 
-/// True if a line is one of YAML: "delay: 80ms", "- up:", "---".
+/// True if a line looks like YAML: "delay: 80ms", "- up:", "---".
 bool is_yaml(std::string_view line)
 {
     const auto start = line.find_first_not_of(" \t-");
@@ -164,7 +167,7 @@ bool is_yaml(std::string_view line)
            (end + 1 == line.size() || line[end + 1] == ' ' || line[end + 1] == '\r');
 }
 
-/// Returns the format other than TOML that a text seems to have; "" where none is recognised.
+/// Returns the format other than TOML that a text seems to have; "" if none is recognised.
 std::string_view other_format(std::string_view text)
 {
     const auto start = text.find_first_not_of(" \t\r\n");
@@ -180,13 +183,13 @@ std::string_view other_format(std::string_view text)
     return "";
 }
 
-/// Finds a value that lacks its quotes, or a quote that lacks its partner, in one line. The parser
-/// only says which letter it did not expect.
+/// Finds in one line a value without quotes, or a quote that is not closed. The parser only reports
+/// which character it did not expect.
 class QuoteSearch {
 public:
     explicit QuoteSearch(std::string_view line) : line_{line} {}
 
-    /// The column of the place is that of the value; its line is left to the caller.
+    /// Returns the error with the column of the value. The caller sets its line.
     [[nodiscard]] std::optional<DocumentError> run()
     {
         while (at_ < line_.size()) {
@@ -236,8 +239,8 @@ private:
                         has_key ? fmt::format("{} = ", key) : "", value)};
     }
 
-    /// Letters or a number with a unit: nothing that TOML reads without quotes, and nothing that
-    /// would be wrong with quotes, too.
+    /// True for letters, or a number with a unit: text that TOML does not accept without quotes,
+    /// and that is likely to be correct with them.
     [[nodiscard]] static bool is_bare_text(std::string_view word)
     {
         constexpr std::string_view letters =
@@ -261,7 +264,7 @@ private:
         return text.substr(start, text.find_last_not_of(" \t\r") + 1 - start);
     }
 
-    /// Skips a string to its last quote. Returns false when there is none.
+    /// Skips a string to its closing quote. Returns false if there is none.
     [[nodiscard]] bool skip_string()
     {
         const char quote = line_[at_];
@@ -293,7 +296,8 @@ std::string_view line_of(std::string_view text, std::uint32_t number)
     return text.substr(0, text.find('\n'));
 }
 
-/// Describes the error in words for the commonest mistakes, otherwise in those of the parser.
+/// Explains the most common mistakes in our own words. Other errors are described by the parser's
+/// message.
 DocumentError explained(std::string_view text, const toml::parse_error& error)
 {
     const Place place = place_of(error.source());

@@ -22,8 +22,8 @@ struct Place {
 
 struct Entry;
 
-/// A value of a TOML document and where it stands. The entries of a table are in the order of the
-/// text. Dates and times are not part of it: nothing that we read has any.
+/// A value of a TOML document, with its place. The entries of a table are in the order of the text.
+/// Dates and times are not supported: no text of this project contains any.
 struct Node {
     using List = std::vector<Node>;
     using Table = std::vector<Entry>;
@@ -38,7 +38,7 @@ struct Entry {
     Node value;
 };
 
-/// A text that is not TOML, or more of it than is read.
+/// An error for a text that is not TOML, or that exceeds a limit.
 struct DocumentError {
     Place place;
     std::string message;
@@ -46,8 +46,8 @@ struct DocumentError {
 
 inline constexpr std::size_t document_bytes_max = 1 << 20;
 
-/// Reads TOML 1.0 into a tree. The text is at most `bytes_max` long, in whole MiB, and nests at
-/// most so deep that no text can exhaust the stack.
+/// Parses TOML 1.0 into a tree. The text may have at most `bytes_max` bytes, which is a whole
+/// number of MiB. The depth of nesting is limited, so that no text can exhaust the stack.
 [[nodiscard]] tl::expected<Node, DocumentError>
 parse_document(std::string_view text, std::size_t bytes_max = document_bytes_max);
 

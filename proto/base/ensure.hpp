@@ -7,8 +7,9 @@
 
 namespace hapnet::base {
 
-/// Stops the program where our own code is wrong; on in every build. Never for their data. The
-/// place is found by builtins: Clang 14 has no std::source_location with this library.
+/// Ends the program if `condition` is false, in every build. It is for errors in this project's own
+/// code, never for input. Builtins give the place, because Clang 14 has no std::source_location
+/// with this library.
 constexpr void ensure(bool condition, const char* file = __builtin_FILE(),
                       int line = __builtin_LINE(), const char* function = __builtin_FUNCTION())
 {

@@ -15,7 +15,8 @@ namespace hapnet::base {
 
 namespace {
 
-/// The table to write where a struct is missing: `write [limit.delay] with to, step, resolution`.
+/// Returns the table to write if a struct is missing: `write [limit.delay] with to, step,
+/// resolution`.
 std::string cure_of_missing_table(const FieldRow& row)
 {
     std::string name{row.key};
@@ -39,8 +40,8 @@ std::string cure_of_missing_table(const FieldRow& row)
     return fmt::format("write [{}] with {}", name, fmt::join(required, ", "));
 }
 
-/// Returns the cure for a missing field: an example (`write sd = "10ms"`), the names to choose
-/// from, or a description of what is allowed.
+/// Returns the advice for a missing field: an example (`write sd = "10ms"`), the names to choose
+/// from, or a description of the allowed values.
 std::string cure_of_missing(const FieldRow& row)
 {
     const ValueKind& plain = row.kind->plain();
@@ -53,7 +54,7 @@ std::string cure_of_missing(const FieldRow& row)
     return fmt::format("expected {}", row.written->describe(row.format));
 }
 
-/// The rows of a struct in the struct, whose defaults are those in `usual`.
+/// Adds the rows of a struct and of the structs in it. `usual` has the defaults.
 void add_key_rows(std::vector<KeyRow>& rows, const FieldTable& fields, const void* usual,
                   const std::string& prefix)
 {
@@ -80,7 +81,7 @@ void add_key_rows(std::vector<KeyRow>& rows, const FieldTable& fields, const voi
     }
 }
 
-/// One line, whose bars do not end a cell.
+/// Returns text for a table cell: on one line, with bars escaped.
 std::string cell(std::string_view text)
 {
     std::string line;

@@ -17,25 +17,26 @@
 
 namespace hapnet::base {
 
-// Texts of structs, by the tables of their fields.
+// Functions that read and print structs as text, by their field tables.
 
-/// The fields that stand in a table of TOML; the others keep their values. Complains of missing
-/// required ones. The table may have other keys: finish() is left to the caller.
+/// Reads the fields that the TOML table contains. The other fields keep their values. Complains of
+/// required fields that are missing. The table may have other keys, so the caller has to call
+/// finish().
 template <Described T>
 void read_fields(TableReader& table, T& target)
 {
     read_fields(field_table<T>(), table, &target);
 }
 
-/// The fields of a table that has no other keys.
+/// Reads the fields of a table that must not have other keys.
 template <Described T>
 void read_table(const Node& node, T& target, Reading& reading)
 {
     read_table(field_table<T>(), node, &target, reading);
 }
 
-/// `half_width = "15ms"`, one text for each field that is printed. A value differs from the default
-/// when it is written otherwise: so does the zero with a sign.
+/// Returns one text for each field that is printed: `half_width = "15ms"`. A value differs from its
+/// default if its text does: -0 differs from 0.
 template <Described T>
 [[nodiscard]] std::vector<std::string> field_texts(const T& value, Print print = Print::all)
 {
@@ -50,7 +51,7 @@ template <Described T>
     return field_lines(field_table<T>(), &value, prefix);
 }
 
-/// Rows of a table of keys.
+/// Returns the rows of a table of the keys of T.
 template <Described T>
 [[nodiscard]] std::vector<KeyRow> key_rows(const std::string& prefix = {}, const T& defaults = {})
 {
@@ -71,11 +72,11 @@ std::string Table::print(const T& value) const
     return table_text(field_texts(value));
 }
 
-// Helpers that make a table.
+// Helpers that build a field table.
 
 namespace detail {
 
-/// The functions that read and print texts of a Value by a Format.
+/// The functions that read and print texts of a Value in a Format.
 template <typename Format, typename Value>
 inline constexpr WrittenAs written_as{
     .read =
@@ -96,7 +97,7 @@ inline constexpr WrittenAs written_as{
         }
     }};
 
-/// A row whose members' places count from `root`, the first byte of the whole struct.
+/// Adds a row. The offset of its member counts from `root`, the first byte of the whole struct.
 template <typename Struct, typename Value, typename Format, std::derived_from<Struct> Owner>
 void add_row(std::vector<FieldRow>& rows, const void* root,
              const Field<Struct, Value, Format>& field, const Owner& owner)

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 using Shape = ValueKind::Shape;
 
-/// Rounds to a number of decimals; a number that is not finite stays.
+/// Rounds to a number of decimals. A number that is not finite is unchanged.
 double rounded(double value, int decimals)
 {
     const double scale = std::pow(10.0, decimals);

@@ -9,7 +9,7 @@ namespace hapnet::base {
 
 namespace {
 
-/// "a time from 0ms to 10s", "a time of at least 1ms" or "a time".
+/// Returns "a time from 0ms to 10s", "a time of at least 1ms" or "a time".
 std::string within(std::string_view what, const std::string& min, const std::string& max)
 {
     if (min.empty() && max.empty()) return std::string{what};

@@ -19,14 +19,14 @@
 
 namespace hapnet::base {
 
-// A format says how the values of a field are written, in TOML and on a command line, and which are
-// allowed. A format of T is a small constant with
-//     void read(const Node&, T&, Reading&) const;  complains, and leaves the target as it was
+// A format defines how the values of a field are written, in TOML and on a command line, and which
+// are allowed. A format of T is a small constant with
+//     void read(const Node&, T&, Reading&) const;  complains, and leaves the target unchanged
 //     std::string print(const T&) const;           TOML that reads back as the same value
 //     std::string describe() const;                for people: "a time from 0ms to 10s"
 //     std::string example() const;                 optional: an allowed value as TOML, "10ms"
-// A format whose values stand in TOML without quotes has `is_bare`.
-// Code with values of a kind of its own defines such a struct beside them.
+// A format whose values are written in TOML without quotes has `is_bare`.
+// Code with its own kind of values defines such a struct beside them.
 
 template <typename Format, typename T>
 concept FormatOf = requires(const Format format, const Node& node, T& target, Reading& reading)
@@ -40,7 +40,8 @@ concept FormatOf = requires(const Format format, const Node& node, T& target, Re
         } -> std::convertible_to<std::string>;
 };
 
-/// Complains that the value at `node` is not from `min` to `max`, both as they are written.
+/// Complains that the value at `node` is outside the range from `min` to `max`. Both are given as
+/// text.
 void complain_of_range(const Node& node, std::string_view min, std::string_view max,
                        Reading& reading);
 
@@ -55,7 +56,7 @@ struct Time {
     [[nodiscard]] std::string describe() const;
 };
 
-/// A share of all: "93%".
+/// A proportion: "93%".
 struct Share {
     void read(const Node& node, Probability& target, Reading& reading) const
     {
@@ -78,7 +79,7 @@ struct Number {
     [[nodiscard]] std::string describe() const;
 };
 
-/// A physical quantity with its unit: "40mm". Kept in SI units.
+/// A physical quantity with its unit: "40mm". The value is kept in SI units.
 struct Quantity {
     const QuantityKind& kind;
     double min = -std::numeric_limits<double>::infinity();
@@ -189,7 +190,7 @@ private:
     read_index(const Node& node, std::span<const std::string_view> names, Reading& reading);
 };
 
-/// A format for a list, with a format for its elements. The list has at least `least` elements.
+/// The format of a list with at least `least` elements. It contains the format of the elements.
 template <typename Element>
 struct List {
     Element element;
@@ -229,7 +230,7 @@ struct Held<std::optional<T>> {
 template <typename T>
 using WithoutOptional = typename detail::Held<T>::type;
 
-/// The format of the values of a type, where a field names none.
+/// The format that a field with values of this type has if it names none.
 template <typename T>
 struct UsualFormat;
 template <>

@@ -13,9 +13,9 @@
 
 namespace hapnet::base {
 
-/// A vector of bounded length that lies where it is declared, as std::inplace_vector of C++26. Its
-/// unused part is never written: filling an array with zeros first may cost more than all that is
-/// done with the few that come.
+/// A vector of bounded length without heap memory, like std::inplace_vector of C++26. The unused
+/// part is never written, because filling the array with zeros may cost more than all work on the
+/// few elements that are added.
 template <typename T, std::size_t size_most>
 class InplaceVector {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -23,7 +23,7 @@ class InplaceVector {
 public:
     InplaceVector() {} // NOLINT(*-member-init, modernize-use-equals-default): see above
 
-    /// Ensures that it is not full.
+    /// Appends an element. Ensures that there is room for it.
     void push_back(const T& value)
     {
         ensure(!full());

@@ -15,8 +15,8 @@ struct IpMarks {
     static constexpr std::uint8_t ecn_bits = 0b11;
     static constexpr std::uint8_t congestion_experienced = 0b11;
 
-    /// True if the sender understands congestion marks in place of losses: ECT(0), ECT(1), or
-    /// already CE.
+    /// True if the sender accepts congestion marks in place of losses: ECT(0), ECT(1), or CE if the
+    /// packet was marked already.
     [[nodiscard]] constexpr bool is_ecn_capable() const { return (traffic_class & ecn_bits) != 0; }
     [[nodiscard]] constexpr bool is_congested() const
     {

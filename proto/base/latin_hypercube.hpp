@@ -9,10 +9,10 @@
 
 namespace hapnet::base {
 
-/// One parameter of a latin hypercube (McKay, Beckman, Conover 1979): where each of `points` points
-/// lies along it, from 0 to less than `points`. Each integer part occurs once, in an order that the
-/// stream shuffles. A uniform draw gives the fraction. Give each parameter a stream of its own, so
-/// that other parameters can come and go without changing it.
+/// Returns the places of all points along one parameter of a latin hypercube (McKay, Beckman,
+/// Conover 1979), each from 0 to less than `points`. Each integer part occurs once, in an order
+/// that the stream shuffles. A uniform draw gives the fraction. Give each parameter its own stream,
+/// so that adding or removing other parameters does not change it.
 [[nodiscard]] std::vector<double> latin_places(const RandomStream& stream, std::uint32_t points);
 
 } // namespace hapnet::base

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\f\v";
 
-/// A kind of compressed file, by its first bytes.
+/// A compressed format, recognised by its first bytes.
 struct Packing {
     std::string_view begins_with;
     std::string_view name;
@@ -48,7 +48,7 @@ void append_utf8(std::string& text, std::uint32_t code)
     add(0x80U | (code & 0x3fU));
 }
 
-/// UTF-8 of UTF-16 (RFC 2781); half a pair becomes the sign for what cannot be shown.
+/// Converts UTF-16 to UTF-8 (RFC 2781). An unpaired surrogate becomes the replacement character.
 std::string from_utf16(std::string_view bytes, bool is_big_endian)
 {
     const auto unit = [&](std::size_t i) {
@@ -105,7 +105,7 @@ LineReader::LineReader(std::string_view text) : rest_{text}
     if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
 }
 
-/// Goes to the next line that says something: the rest begins with it.
+/// Advances to the next line with content, so that the rest of the text begins with it.
 bool LineReader::find_next()
 {
     skipped_empty_ = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// The integer nearest to x, |x| < 2^51, by the rounding of an addition.
+/// Returns the integer nearest to x for |x| < 2^51, by the rounding of an addition.
 double nearest(double x)
 {
     constexpr double shift = 6755399441055744.0; // 1.5 * 2^52
@@ -91,7 +91,7 @@ double cos(double radians) { return circular(radians, 1); }
 
 void sines_of_turns(std::span<double> turns)
 {
-    // The loop has no branch, so that compilers make lanes of it.
+    // The loop has no branch, so that compilers can vectorise it.
     for (double& t : turns) {
         const double halves = nearest(2.0 * t);
         const double odd = halves - 2.0 * nearest(0.5 * halves); // -1, 0 or 1
@@ -169,7 +169,7 @@ double log(double x)
 
 double log1p(double x)
 {
-    // The part of x that 1 + x loses is given back as a factor (Hewlett-Packard, HP-15C Advanced
+    // A factor restores the part of x that is lost in 1 + x (Hewlett-Packard, HP-15C Advanced
     // Functions Handbook, 1982).
     const double sum = 1.0 + x;
     if (sum == 1.0) return x;

@@ -11,11 +11,12 @@
 
 namespace hapnet::base {
 
-/// Names a type in a call, so that a description beside the type is found: fields_of(Tag<T>{}).
+/// A type as an argument, so that a description beside the type is found: fields_of(Tag<T>{}).
 template <typename T>
 struct Tag {};
 
-/// An enum whose values have names. Beside the enum, in the order of its values, from 0 on:
+/// An enum whose values have names, and count from 0 without gaps. The names are listed beside the
+/// enum, in the order of its values:
 ///     constexpr auto names_of(base::Tag<Order>) { return base::names("keep", "free", "sorted"); }
 template <typename Enum>
 concept Named = std::is_enum_v<Enum> && requires
@@ -45,7 +46,7 @@ template <Named Enum>
     return names_of_enum<Enum>.at(static_cast<std::size_t>(value));
 }
 
-/// The value of that name; nullopt: no value has it.
+/// Returns the value with this name; nullopt if no value has it.
 template <Named Enum>
 [[nodiscard]] constexpr std::optional<Enum> named(std::string_view name)
 {

@@ -15,7 +15,7 @@ namespace hapnet::base {
 
 namespace {
 
-/// first + x (second + x (...)).
+/// Returns first + x (second + x (...)).
 template <std::size_t n>
 double polynomial(const std::array<double, n>& coefficients, double x)
 {
@@ -24,7 +24,7 @@ double polynomial(const std::array<double, n>& coefficients, double x)
     return sum;
 }
 
-/// exp(-z^2 / 2) without the error that squaring a large z brings into the exponent.
+/// Returns exp(-z^2 / 2) without the error that the squaring of a large z causes in the exponent.
 double bell(double z)
 {
     const double coarse = static_cast<double>(static_cast<std::int64_t>(z * 16.0)) / 16.0;
@@ -32,10 +32,10 @@ double bell(double z)
     return exp(-0.5 * coarse * coarse) * exp(-0.5 * rest);
 }
 
-/// P(Z > z) for z > 0.674.
+/// Returns P(Z > z) for z > 0.674.
 double upper_tail(double z)
 {
-    // Ascending in z and, beyond sqrt(32), in 1 / z^2.
+    // The coefficients ascend in z, or, beyond sqrt(32), in 1 / z^2.
     constexpr std::array<double, 9> c{
         9842.7148383839780218, 11602.651437647350124, 6848.1904505362823326,
         2494.5375852903726711, 597.27027639480026226, 93.506656132177855979,

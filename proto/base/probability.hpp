@@ -6,7 +6,7 @@
 
 namespace hapnet::base {
 
-/// A number from 0 to 1. Percent exist only where a person types or reads.
+/// A number from 0 to 1. Percentages are used only in text for people.
 class Probability {
 public:
     constexpr Probability() = default;
@@ -31,7 +31,7 @@ private:
 
 namespace literals {
 
-/// `93_percent`; `150_percent` does not compile.
+/// The literal `93_percent`. A value above 100, such as `150_percent`, does not compile.
 consteval Probability operator""_percent(long double percent)
 {
     return Probability::from_fraction(static_cast<double>(percent / 100.0L)).value();

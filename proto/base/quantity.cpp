@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view digit_letters = "0123456789";
 
-/// The length of a prefix of `text` that is an exponent, "e-3"; 0: there is none.
+/// Returns the length of an exponent such as "e-3" at the start of `text`; 0 if there is none.
 std::size_t exponent_size(std::string_view text)
 {
     if (!text.starts_with('e') && !text.starts_with('E')) return 0;
@@ -35,7 +35,7 @@ struct Written {
     std::string_view unit;
 };
 
-/// "-1.5e3N" into "-1.5", 3 and "N"; nullopt when there are no such three.
+/// Splits "-1.5e3N" into "-1.5", 3 and "N"; nullopt if the text does not have this form.
 std::optional<Written> written_in(std::string_view text)
 {
     const std::size_t sign = text.starts_with('-') ? 1 : 0;
@@ -69,7 +69,7 @@ struct Decimal {
     int point = 0;
 };
 
-/// The shortest that reads as `value`.
+/// Returns the shortest decimal number that reads as `value`.
 Decimal decimal_of(double value)
 {
     std::array<char, 64> buffer{};
@@ -89,7 +89,7 @@ Decimal decimal_of(double value)
     return decimal;
 }
 
-/// Plain where that is short, otherwise with an exponent.
+/// Returns plain digits if they are short, otherwise digits with an exponent.
 std::string text_of(const Decimal& decimal)
 {
     constexpr int point_min = -3;
@@ -109,7 +109,7 @@ std::string text_of(const Decimal& decimal)
     return fmt::format("{}{}.{}", sign, digits.substr(0, whole), digits.substr(whole));
 }
 
-/// A number with each unit of the examples, once: "40N/m or 40N/mm".
+/// Returns a number with each unit of the examples once: "40N/m or 40N/mm".
 std::string with_units(std::string_view number, const QuantityKind& kind)
 {
     std::vector<std::string> cures;

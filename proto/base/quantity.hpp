@@ -10,23 +10,23 @@
 
 namespace hapnet::base {
 
-// Physical quantities as people type and read them: "40mm", "-9.81m/s2", "1e6N/m". Kept in SI units
-// as doubles. A typed value becomes the nearest double, because the decimal point is shifted before
-// the number is rounded: "22.5mm" is 0.0225.
+// Physical quantities in the notation for people: "40mm", "-9.81m/s2", "1e6N/m". They are kept in
+// SI units as doubles. A text becomes the double nearest to its value, because the decimal point is
+// shifted before the number is rounded: "22.5mm" is 0.0225.
 
-/// A unit of a quantity: 10^exponent of its SI unit, times `factor`.
+/// A unit of a quantity. Its size is 10^exponent SI units, times `factor`.
 struct PhysicalUnit {
     std::string_view name;
     int exponent = 0;
     double factor = 1.0;
-    bool is_printed = false; // quantity_text() may use it
+    bool is_printed = false; // true if quantity_text() may use it
 };
 
-/// A kind of quantity, and how it is written.
+/// A kind of quantity, with its name and its units.
 struct QuantityKind {
     std::string_view name;             // name with its article: "a length"
     std::string_view examples;         // "40mm, 0.5m or 500um"
-    std::array<PhysicalUnit, 4> units; // printed ones: the largest first
+    std::array<PhysicalUnit, 4> units; // those that are printed are sorted from the largest
 };
 
 inline constexpr QuantityKind length_kind{
@@ -77,14 +77,15 @@ inline constexpr QuantityKind turn_kind{
     "1rad/s or 90deg/s",
     {{{"rad/s", 0, 1.0, true}, {"deg/s", 0, radians_per_degree}}}};
 
-/// The value in SI units. A sign and an exponent ("1e6N/m") may be there; the unit must, except
-/// that a bare 0 is zero. The error says what to write.
+/// Returns the value in SI units. A sign and an exponent ("1e6N/m") are allowed. The unit is
+/// required, except with a bare 0. The error says what to write.
 [[nodiscard]] Result<double> parse_quantity(std::string_view text, const QuantityKind& kind);
 
-/// True if the word is a unit that people type: "ms", "%", "Mbit/s", "mm".
+/// True if the word is one of the units of this project's texts: "ms", "%", "Mbit/s", "mm".
 [[nodiscard]] bool is_unit(std::string_view word);
 
-/// A finite value with the largest unit of which it is at least 1. Reads back as the same bits.
+/// Returns a finite value with the largest unit in which it is at least 1. Parsing the text gives
+/// the same bits.
 [[nodiscard]] std::string quantity_text(double value, const QuantityKind& kind);
 
 } // namespace hapnet::base

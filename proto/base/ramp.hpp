@@ -16,7 +16,7 @@
 
 namespace hapnet::base {
 
-// Ramps: the value between two, at `progress` from 0 (a) to 1 (b); nullopt when there is none.
+// Ramps. between() returns the value at `progress` from 0 (a) to 1 (b); nullopt if there is none.
 
 [[nodiscard]] inline std::optional<double> between(double a, double b, double progress)
 {
@@ -35,7 +35,8 @@ namespace hapnet::base {
     return Probability::from_fraction(std::clamp(fraction, 0.0, 1.0));
 }
 
-/// A number of things, not a small code or a truth value.
+/// An unsigned integer that counts things. A single byte, used for small codes, and bool are
+/// excluded.
 template <typename T>
 concept Whole = std::unsigned_integral<T> && sizeof(T) > 1;
 
@@ -46,7 +47,7 @@ template <Whole T>
     return static_cast<T>(std::llround(from + (static_cast<double>(b) - from) * progress));
 }
 
-/// A ramp of values that have nothing in between exists only between equal values.
+/// Values of a type without intermediate values have a ramp only if both are equal.
 template <typename T>
 requires(!Described<T> && !Whole<T>)
     [[nodiscard]] std::optional<T> between(const T& a, const T& b, double /*progress*/)
@@ -64,7 +65,7 @@ template <typename T>
     return value ? Between{std::in_place, *value} : Between{};
 }
 
-/// Within one alternative.
+/// A variant has a ramp only if both values have the same alternative.
 template <typename... Types>
 [[nodiscard]] std::optional<std::variant<Types...>>
 between(const std::variant<Types...>& a, const std::variant<Types...>& b, double progress);

@@ -22,7 +22,8 @@ std::uint64_t low_words(const Philox::ctr_type& block)
     return static_cast<std::uint64_t>(block[1]) << 32 | block[0];
 }
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo): short, and enough to tell a handful of names apart.
+// Computes FNV-1a with 64 bits (Fowler, Noll, Vo). It is short, and sufficient to distinguish a few
+// names.
 std::uint64_t hash_of(std::string_view name)
 {
     std::uint64_t hash = 0xcbf29ce484222325u;
@@ -37,8 +38,8 @@ std::uint64_t hash_of(std::string_view name)
 
 RandomStream Seed::stream(std::string_view name) const
 {
-    // The name goes through the cipher under the seed's key: neither near seeds nor near
-    // names give related stream keys.
+    // The name is encrypted under the seed's key, so that neither similar seeds nor similar names
+    // give related stream keys.
     const std::uint64_t hash = hash_of(name);
     const auto block = philox(
         value_, {{static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32), 0, 1}});

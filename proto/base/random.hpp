@@ -7,19 +7,20 @@
 
 namespace hapnet::base {
 
-/// A random stream whose n-th draw is a pure function of (seed, name, n): it has no state, so
-/// drawing from one stream never shifts another, and a draw can be repeated at any time.
-/// Philox-4x32-10 (Salmon et al., SC 2011) keyed by the seed and a hash of the name.
+/// A random stream whose n-th draw is a pure function of (seed, name, n). As it has no state,
+/// drawing from one stream never affects another, and a draw can be repeated at any time. It is
+/// Philox-4x32-10 (Salmon et al., SC 2011), keyed by the seed and a hash of the name.
 class RandomStream {
 public:
-    /// 64 uniform bits. `index` is usually the number of a datagram; `draw` tells several draws
-    /// for the same index apart.
+    /// Returns 64 uniform bits. `index` is usually the number of a datagram; `draw` distinguishes
+    /// several draws for the same index.
     [[nodiscard]] std::uint64_t bits(std::uint64_t index, std::uint32_t draw = 0) const;
 
-    /// Uniform on [0, 1), in steps of 2^-53.
+    /// Returns a number that is uniform on [0, 1), in steps of 2^-53.
     [[nodiscard]] double uniform(std::uint64_t index, std::uint32_t draw = 0) const;
 
-    /// Uniform on 0, 1, ... below-1 without modulo bias worth speaking of (below < 2^32).
+    /// Returns a number that is uniform on 0, 1, ... below-1 (below < 2^32). The modulo bias is
+    /// negligible.
     [[nodiscard]] std::uint64_t below(std::uint32_t below, std::uint64_t index,
                                       std::uint32_t draw = 0) const;
 
@@ -31,14 +32,14 @@ private:
     std::uint32_t domain_;
 };
 
-/// The one number that all chance of a run comes from. Printed in every result.
+/// The number that all randomness of a run is derived from. Every result contains it.
 class Seed {
 public:
     explicit constexpr Seed(std::uint64_t value = 0) : value_{value} {}
 
     [[nodiscard]] constexpr std::uint64_t value() const { return value_; }
 
-    /// The stream of this name, e.g. "up/loss". Different names give independent streams.
+    /// Returns the stream with this name, e.g. "up/loss". Different names give independent streams.
     [[nodiscard]] RandomStream stream(std::string_view name) const;
 
     friend constexpr bool operator==(Seed, Seed) = default;

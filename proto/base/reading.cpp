@@ -15,8 +15,9 @@ namespace hapnet::base {
 
 namespace {
 
-/// The least number of changes that make one word of the other: a letter changed, added or left
-/// out, or two neighbours swapped (Damerau and Levenshtein; each letter takes part in one change).
+/// Returns the least number of changes that turn one word into the other: a letter changed, added
+/// or removed, or two neighbours swapped (Damerau and Levenshtein; each letter takes part in one
+/// change).
 std::size_t distance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -69,12 +70,12 @@ tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_ba
         return Node{{}, std::string{text}};
     }
     auto document = parse_document(fmt::format("value = {}", text));
-    // A word where a number belongs: the reader of numbers says best what it expects.
+    // For a word in place of a number, the reader of numbers gives the best error.
     const bool is_text = !text.starts_with('{') && !text.starts_with('[');
     if (!document && is_text) return Node{{}, std::string{text}};
     if (!document) return document;
     auto& table = std::get<Node::Table>(document->value);
-    // "{} \n more = 1" would be several.
+    // The text "{} \n more = 1" contains several values.
     if (table.size() != 1) return tl::unexpected{DocumentError{{}, "more than one value"}};
     return std::move(table.front().value);
 }
@@ -156,7 +157,7 @@ void TableReader::finish() const
         const std::string advice = reading_.advice_on(entry.key);
         const auto what = fmt::format("unknown key {}: {}", in_quotes(entry.key),
                                       advice.empty() ? suggestion(entry.key, known_) : advice);
-        // The key that is missing is probably this one, mistyped.
+        // This key is probably a misspelling of the missing one.
         if (is_missing_told_) return reading_.complain_rather(entry.place, what);
         return reading_.complain(entry.place, what);
     }
@@ -168,7 +169,7 @@ std::string what_it_is(const Node& node)
     if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
         return fmt::format("{}", *integer);
     }
-    // The decimal point stays: 40.0 is not the whole number 40.
+    // Keeps the decimal point, because 40.0 is not the whole number 40.
     if (const auto* real = std::get_if<double>(&node.value)) return fmt::format("{:#}", *real);
     if (const auto* text = std::get_if<std::string>(&node.value)) return in_quotes(*text);
     return std::holds_alternative<Node::List>(node.value) ? "a list" : "a table";
@@ -247,7 +248,7 @@ std::string value_text(Duration value) { return base::quoted(to_text(value)); }
 std::string value_text(Probability value) { return base::quoted(to_text(value)); }
 std::string value_text(double value)
 {
-    // TOML would forget the sign of a zero that is written as a whole number.
+    // TOML loses the sign of a zero that is written as a whole number.
     return value == 0.0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }
 std::string value_text(std::uint8_t value) { return fmt::format("{}", value); }

@@ -21,7 +21,7 @@
 
 namespace hapnet::base {
 
-/// Gives the text of a file that a text names, or says why not.
+/// A function that returns the content of a file that a text names, or the reason why it cannot.
 class OpenFile {
 public:
     /// Opens no files.
@@ -30,7 +30,7 @@ public:
     OpenFile(Open open) : open_{std::move(open)} // NOLINT(google-explicit-constructor)
     {}
 
-    /// Returns the same files for a client that may name them but not read them: error messages
+    /// Returns the same function for a client that may name files but not read them: error messages
     /// quote none of their content.
     [[nodiscard]] OpenFile unquoted() const
     {
@@ -51,31 +51,32 @@ private:
     bool is_quoted_ = true;
 };
 
-/// The value of an option on a command line, as in TOML, except that a text stands there without
-/// quotes: `5ms`, `{ law = "normal", sd = "3ms" }`, `["5%", "40/100"]`. With `is_bare` a number or
-/// a truth value: `40`, `true`.
+/// Parses the value of an option on a command line. It is TOML, except that a text needs no quotes:
+/// `5ms`, `{ law = "normal", sd = "3ms" }`, `["5%", "40/100"]`. With `is_bare` it is a number or a
+/// truth value: `40`, `true`.
 [[nodiscard]] tl::expected<Node, DocumentError> parse_option(std::string_view text, bool is_bare);
 
-/// Returns advice on a key that its table does not have, for one kind of text: "write it below
-/// [both], [up] or [down]". Empty: the list of the table's keys is the best advice.
+/// A function that returns advice on a key that its table does not have, for one kind of text:
+/// "write it below [both], [up] or [down]". An empty result means that the list of the table's keys
+/// is the best advice.
 using AdviseOnKey = std::function<std::string(std::string_view key)>;
 
-/// The reading of one text: keeps the first complaint about it.
+/// The state of reading one text. It keeps the first complaint about the text.
 class Reading {
 public:
-    /// `source` names the text in complaints, as "FILE:LINE:COLUMN: ...". Without `has_lines` it
-    /// is an option and stands alone: "up.delay: ...".
+    /// `source` names the text in complaints: "FILE:LINE:COLUMN: ...". Without `has_lines`, the
+    /// text is an option, and complaints contain only its name: "up.delay: ...".
     explicit Reading(std::string source, OpenFile open = {}, bool has_lines = true)
         : source_{std::move(source)}, open_{std::move(open)}, has_lines_{has_lines}
     {}
 
     void complain(Place place, std::string_view what);
-    /// Instead of what has been complained of before.
+    /// Replaces the first complaint, if there is one.
     void complain_rather(Place place, std::string_view what);
     [[nodiscard]] bool is_good() const { return !complaint_; }
     [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
 
-    /// Gives all tables of this text advice on the keys that they do not have.
+    /// Sets the advice on unknown keys for all tables of this text.
     void advise_on_keys(AdviseOnKey advise) { advise_ = std::move(advise); }
     [[nodiscard]] std::string advice_on(std::string_view key) const
     {
@@ -84,7 +85,8 @@ public:
 
     [[nodiscard]] Result<std::string> open(const std::string& name) const;
     /// Returns the error for a file that was opened: "FILE: line 3: ...". If the file is not to be
-    /// quoted, the error has only the line number. `what` begins with the line, if there is one.
+    /// quoted, the error contains only the line number. `what` begins with the line, if the error
+    /// has one.
     [[nodiscard]] Error trouble_in(const std::string& file, std::string_view what) const;
 
 private:
@@ -95,11 +97,11 @@ private:
     std::optional<std::string> complaint_;
 };
 
-/// The one of `possible` that a mistyped word was probably meant to be.
+/// Returns the element of `possible` that a mistyped word was probably meant to be.
 [[nodiscard]] std::optional<std::string_view> nearest(std::string_view word,
                                                       std::span<const std::string_view> possible);
 
-/// "did you mean 'jitter'?" or "use one of delay, jitter, ...".
+/// Returns "did you mean 'jitter'?" or "use one of delay, jitter, ...".
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      std::span<const std::string_view> possible);
 
@@ -110,11 +112,12 @@ public:
         : table_{table}, place_{place}, reading_{reading}
     {}
 
-    /// nullptr when it is not there.
+    /// Returns the value with this key; nullptr if the table does not have it.
     [[nodiscard]] const Node* find(std::string_view key);
-    /// Complains when it is not there, and says `cure`: `write sd = "10ms"`.
+    /// Returns the value with this key. Complains if the table does not have it, and quotes `cure`,
+    /// such as `write sd = "10ms"`.
     [[nodiscard]] const Node* require(std::string_view key, std::string_view cure = {});
-    /// Complains about keys that were not read. Call it after all keys have been read, also after a
+    /// Complains about keys that were not read. Call it after all keys have been read, even after a
     /// complaint: an unknown key is often the cause of a missing one.
     void finish() const;
 
@@ -146,26 +149,27 @@ template <typename Read>
     return value;
 }
 
-/// Complains that the value is not what is expected: "a text in quotes".
+/// Complains that the value is not what was expected. `expected` is such as "a text in quotes".
 void complain_of(const Node& node, std::string_view expected, Reading& reading);
 
-/// The text of a quantity with a unit; a bare 0 needs none.
+/// Returns the text of a quantity with its unit. A bare 0 needs no unit.
 [[nodiscard]] std::optional<std::string_view> quantity(const Node& node);
 
-/// Returns the type of a value, in words for a complaint.
+/// Returns a description of a value's type for a complaint.
 [[nodiscard]] std::string what_it_is(const Node& node);
 
-/// A whole number from 0 to `most`; nullopt when it is something else.
+/// Returns a whole number from 0 to `most`; nullopt if the value is anything else.
 [[nodiscard]] std::optional<std::uint64_t> count_of(const Node& node, std::uint64_t most);
 
-/// A quantity with its unit, by a parser whose errors say what to "write".
+/// Reads a quantity with its unit. The errors of the parser begin with what to "write".
 template <typename Target, typename Parse>
 void read_quantity(const Node& node, Target& target, Parse parse, Reading& reading)
 {
     const auto text = quantity(node);
     const bool is_number = std::holds_alternative<std::int64_t>(node.value) ||
                            std::holds_alternative<double>(node.value);
-    // The parser says best what it expects: a number without a unit is wrong text to it.
+    // If the value is neither a text nor a number, the complaint quotes what the parser expects. To
+    // the parser, a number without a unit is a wrong text.
     if (!text && !is_number) {
         const auto example = parse("?");
         const std::string message = example.error().message;
@@ -176,7 +180,8 @@ void read_quantity(const Node& node, Target& target, Parse parse, Reading& readi
     target = static_cast<Target>(*value);
 }
 
-// Reads the values of keys. A wrong value causes a complaint, and leaves the target as it was.
+// Functions that read the values of keys. A wrong value causes a complaint, and leaves the target
+// unchanged.
 
 void read_value(const Node& node, Duration& target, Reading& reading);
 void read_value(const Node& node, Probability& target, Reading& reading);
@@ -185,7 +190,7 @@ void read_value(const Node& node, std::uint8_t& target, Reading& reading);
 void read_value(const Node& node, std::uint32_t& target, Reading& reading);
 void read_value(const Node& node, std::string& target, Reading& reading);
 
-// Printing of values: as TOML that reads back as the same value.
+// Functions that print values as TOML, which reads back as the same value.
 
 [[nodiscard]] std::string quoted(std::string_view text);
 /// Returns a text as complaints quote it: 'text', with control characters made visible.
@@ -197,10 +202,10 @@ void read_value(const Node& node, std::string& target, Reading& reading);
 [[nodiscard]] std::string value_text(std::uint32_t value);
 [[nodiscard]] std::string value_text(const std::string& value);
 
-/// `a, b, c`
+/// Returns `a, b, c`.
 [[nodiscard]] std::string list_text(const std::vector<std::string>& elements);
 
-/// `{ a = 1, b = 2 }`
+/// Returns `{ a = 1, b = 2 }`.
 [[nodiscard]] std::string table_text(const std::vector<std::string>& entries);
 
 } // namespace hapnet::base

@@ -10,11 +10,12 @@
 
 namespace hapnet::base {
 
-/// The answer to the question whether a number was seen before.
+/// The answer to the question of whether a number was seen before.
 enum class Seen : std::uint8_t { no, yes, too_old_to_tell };
 
-/// Remembers which numbers have been seen, of the highest and the `looks_back - 1` below it. The
-/// ring of RFC 6479: a word is cleared when the highest number enters it, nothing is shifted.
+/// Remembers which numbers have been seen, among the highest one and the `looks_back - 1` below it.
+/// The ring of RFC 6479: a word is cleared when the highest number enters it, and nothing is
+/// shifted.
 template <std::size_t looks_back>
 class RecentNumbers {
 public:
@@ -27,7 +28,7 @@ public:
         return (words_[word_of(number)] & bit_of(number)) != 0 ? Seen::yes : Seen::no;
     }
 
-    /// Returns what find() does, and remembers the number unless it is too old.
+    /// Returns the same as find(), and then remembers the number unless it is too old.
     Seen add(std::uint64_t number)
     {
         const Seen seen = find(number);
@@ -42,11 +43,11 @@ public:
         return seen;
     }
 
-    /// The highest number so far; nullopt before the first one.
+    /// Returns the highest number so far; nullopt before the first one.
     [[nodiscard]] std::optional<std::uint64_t> highest() const { return highest_; }
 
 private:
-    static constexpr std::size_t words = looks_back / 64 + 1; // the highest may be almost empty
+    static constexpr std::size_t words = looks_back / 64 + 1; // the newest may be almost empty
 
     [[nodiscard]] static std::size_t word_of(std::uint64_t number) { return number / 64 % words; }
     [[nodiscard]] static std::uint64_t bit_of(std::uint64_t number)

@@ -8,16 +8,16 @@
 
 namespace hapnet::base {
 
-/// The reason why input was refused, in words that say what to do.
+/// The reason why input was refused, with advice on what to do.
 struct Error {
     std::string message;
 };
 
-/// A value, or the reason why there is none. Has the names of std::expected.
+/// A value, or the reason why there is none. The members are those of std::expected.
 template <typename T>
 using Result = tl::expected<T, Error>;
 
-/// The failing side of a Result: `return fail("wrong length");`
+/// Makes a Result that failed: `return fail("wrong length");`
 [[nodiscard]] inline tl::unexpected<Error> fail(std::string message)
 {
     return tl::unexpected<Error>{Error{std::move(message)}};

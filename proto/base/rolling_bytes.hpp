@@ -12,18 +12,19 @@
 
 namespace hapnet::base {
 
-/// The last seconds of a stream of pieces, each of a time, in a ring of bounded memory: what a
-/// flight recorder holds. Whatever is older than its span, or finds no room, makes way.
+/// The last seconds of a stream of pieces with times, in a ring of bounded memory, as for a flight
+/// recorder. Pieces that are older than the span are dropped, and the oldest are dropped when there
+/// is no room.
 class RollingBytes {
 public:
-    /// Memory that is never used is never touched.
+    /// Allocates `bytes_max` bytes, but touches none of them before they are used.
     RollingBytes(Duration span, std::size_t bytes_max);
 
-    /// Times ascend; one that goes back counts as the newest so far. A piece longer than the ring
-    /// is left out.
+    /// Adds a piece. Times should ascend: a time before that of the newest piece is replaced by it.
+    /// A piece longer than the ring is left out.
     void add(TimePoint at, std::string_view piece);
 
-    /// The pieces from that time on, in the order in which they came.
+    /// Returns the pieces from `from` on, in the order in which they were added.
     [[nodiscard]] std::string since(TimePoint from) const;
 
     [[nodiscard]] std::size_t pieces() const { return pieces_.size(); }

@@ -13,13 +13,13 @@
 
 namespace hapnet::base {
 
-/// A vector whose elements stay as they are and are shared by its copies: a copy of a million
-/// elements costs as little as one of none. Equal when the elements are.
+/// A vector whose elements never change and are shared by its copies, so that copying is cheap
+/// whatever the number of elements. Two are equal if their elements are.
 template <typename T>
 class SharedVector {
 public:
     SharedVector() = default;
-    // Implicit, so that a struct with one is written as with a vector.
+    // Implicit, so that a struct with a SharedVector can be initialised with a vector.
     SharedVector(std::vector<T> elements) // NOLINT(google-explicit-constructor)
         : elements_{std::make_shared<const std::vector<T>>(std::move(elements))}
     {}
@@ -29,10 +29,10 @@ public:
     [[nodiscard]] auto end() const { return get().end(); }
     [[nodiscard]] std::size_t size() const { return get().size(); }
     [[nodiscard]] bool empty() const { return get().empty(); }
-    /// `index` < size().
+    /// Returns an element; `index` must be below size().
     [[nodiscard]] decltype(auto) operator[](std::size_t index) const { return get()[index]; }
 
-    /// All elements.
+    /// Returns all elements.
     [[nodiscard]] const std::vector<T>& get() const
     {
         static const std::vector<T> none;
@@ -48,7 +48,7 @@ private:
     std::shared_ptr<const std::vector<T>> elements_; // nullptr: no elements
 };
 
-/// The format of its values: that of a vector.
+/// The format of a SharedVector, which is that of a vector.
 template <typename Format>
 struct InShared {
     Format format;

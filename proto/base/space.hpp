@@ -10,9 +10,9 @@
 
 namespace hapnet::base {
 
-// Places and what moves between them. Right-handed frame: x right, y up, z toward the user.
-// SI units: metres, seconds, newtons. The types exist so that position + position, or a force
-// where a displacement belongs, does not compile.
+// Positions, vectors and rotations in a right-handed frame: x right, y up, z toward the user. SI
+// units: metres, seconds, newtons. The types prevent mistakes such as position + position, or a
+// force in place of a displacement.
 
 /// A free vector of one physical kind.
 template <typename Kind>
@@ -47,7 +47,7 @@ using Force = Vector<struct ForceKind>;
 /// Newton seconds.
 using Impulse = Vector<struct ImpulseKind>;
 
-/// A place: metres from the origin.
+/// A point, in metres from the origin.
 struct Position {
     glm::dvec3 value{0.0, 0.0, 0.0};
 
@@ -70,7 +70,8 @@ struct Position {
 }
 [[nodiscard]] constexpr Impulse operator*(Force f, Duration t) { return {f.value * to_seconds(t)}; }
 
-/// The length of a vector, by a correctly rounded square root: the same bits everywhere.
+/// Returns the length of a vector. The square root is correctly rounded, so the bits are the same
+/// everywhere.
 template <typename Kind>
 [[nodiscard]] double norm(Vector<Kind> v)
 {
@@ -88,7 +89,7 @@ template <typename Kind>
 }
 [[nodiscard]] inline bool is_finite(Position p) { return is_finite(p.value); }
 
-/// `v`, shortened to `length_max` when it is longer; its direction is kept.
+/// Returns `v`, shortened to `length_max` if it is longer. The direction is unchanged.
 template <typename Kind>
 [[nodiscard]] Vector<Kind> limited(Vector<Kind> v, double length_max)
 {
@@ -96,8 +97,8 @@ template <typename Kind>
     return length > length_max ? (length_max / length) * v : v;
 }
 
-/// A rotation brought back to length 1 by a square root and a division: the same bits everywhere,
-/// which the math library's own way does not promise.
+/// Returns a rotation scaled to length 1. It uses a square root and a division, so the bits are the
+/// same everywhere. glm's own function does not promise that.
 [[nodiscard]] inline glm::dquat normalized(const glm::dquat& q)
 {
     const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);

@@ -20,7 +20,7 @@ struct Unit {
     double nanoseconds;
 };
 
-/// A unit of things that come in whole numbers.
+/// A unit of a quantity that is counted in whole numbers.
 struct WholeUnit {
     std::string_view name;
     std::uint64_t size;
@@ -49,7 +49,7 @@ constexpr std::array<WholeUnit, 11> rate_units{{
     {"Mbit", 1'000'000},
     {"kbit", 1'000},
     {"bit", 1},
-    // Other spellings, never printed: all rates are whole numbers of bit.
+    // Other spellings, which are never printed. All rates are whole numbers of bits per second.
     {"tbit", 1'000'000'000'000},
     {"gbit", 1'000'000'000},
     {"mbit", 1'000'000},
@@ -75,15 +75,15 @@ struct NumberAndUnit {
     std::string_view unit;
 };
 
-/// "160ms" into "160" and "ms".
+/// Splits "160ms" into "160" and "ms".
 NumberAndUnit split(std::string_view text)
 {
     const auto end = std::min(text.find_first_not_of("0123456789."), text.size());
     return {text.substr(0, end), text.substr(end)};
 }
 
-/// The double nearest to `digits` times 10^exponent. Plain decimals: no sign, no exponent of
-/// their own, no inf or nan.
+/// Returns the double nearest to `digits` times 10^exponent. `digits` is a plain decimal number: no
+/// sign, no exponent, no inf or nan.
 std::optional<double> number(std::string_view digits, int exponent = 0)
 {
     const auto text = fmt::format("{}e{}", digits, exponent);
@@ -93,8 +93,8 @@ std::optional<double> number(std::string_view digits, int exponent = 0)
     return value;
 }
 
-/// The whole number of the smallest unit that `digits` of `unit` are; nullopt: not whole, or not
-/// one of the units.
+/// Converts the quantity to a whole number of the smallest unit; nullopt if it is not whole, or the
+/// unit is not one of `whole_units`.
 template <std::size_t N>
 std::optional<std::uint64_t> whole(const NumberAndUnit& quantity,
                                    const std::array<WholeUnit, N>& whole_units)
@@ -113,7 +113,8 @@ std::optional<std::uint64_t> whole(const NumberAndUnit& quantity,
     return std::nullopt;
 }
 
-/// Says that `text` has a space, if it could be read without; otherwise `why` it cannot.
+/// Refuses `text`. If it would be valid without spaces, the error says so; otherwise the error is
+/// `why`.
 template <typename Parse>
 tl::unexpected<Error> refuse(std::string_view text, Parse parse, std::string why)
 {
@@ -122,8 +123,8 @@ tl::unexpected<Error> refuse(std::string_view text, Parse parse, std::string why
     return fail(fmt::format("'{}' has a space: write {}", text, joined));
 }
 
-/// "k" of "kbps", in the case of the units above; nullopt: not such a unit. Whether it is bits or
-/// bytes differs between programs, and not by its case.
+/// Returns "k" for "kbps", in the case of the units above; nullopt if it is not such a unit.
+/// Programs differ in whether it means bits or bytes, and its case does not tell.
 std::optional<std::string> prefix_of_bps(std::string_view unit)
 {
     std::string small;
@@ -219,7 +220,8 @@ std::string bound_text(Duration bound)
 Result<Probability> parse_probability(std::string_view text)
 {
     const auto [digits, unit] = split(text);
-    // Shifted as a decimal, not divided: every fraction can be written, and rounds once.
+    // The decimal point is shifted instead of dividing, so that every fraction can be written and
+    // is rounded once.
     const auto fraction = number(digits, -2);
     if (fraction && (unit == "%" || (unit.empty() && *fraction == 0.0))) {
         if (const auto probability = Probability::from_fraction(*fraction)) return *probability;
@@ -238,13 +240,13 @@ Result<Probability> parse_probability(std::string_view text)
 
 std::string to_text(Probability probability)
 {
-    // Percent with the fewest decimals that read as the same fraction again. A long double holds
-    // the product closely enough for any of them.
+    // Finds the percentage with the fewest decimals that reads as the same fraction. A long double
+    // holds the product with sufficient precision.
     const long double percent = 100.0L * static_cast<long double>(probability.fraction());
     constexpr int decimals_max = 400; // more than the smallest double needs
     std::array<char, decimals_max + 8> buffer{};
     for (int decimals = 0; decimals < decimals_max; ++decimals) {
-        // fmt is not used: version 9 ignores the precision here (0.05L with 0 decimals).
+        // fmt is not used, because version 9 ignores the precision here (0.05L with 0 decimals).
         const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
                                                 percent, std::chars_format::fixed, decimals);
         ensure(error == std::errc{});

@@ -7,8 +7,8 @@
 
 namespace hapnet::base {
 
-/// The one clock of the cores. It has no now(): a core that wants to read a clock does not
-/// compile. Shells fill it from CLOCK_BOOTTIME, virtual time from a counter.
+/// The one clock of the cores. It has no now(), so a core that reads a clock does not compile.
+/// Shells take its times from CLOCK_BOOTTIME, and virtual time takes them from a counter.
 struct Timeline {
     using duration = std::chrono::nanoseconds;
     using rep = duration::rep;
@@ -20,14 +20,14 @@ struct Timeline {
 using Duration = Timeline::duration;
 using TimePoint = Timeline::time_point;
 
-/// True if there is a deadline and it has come. A plain comparison is wrong: `std::nullopt <= now`
-/// is true.
+/// True if there is a deadline and it has passed. A plain comparison would be wrong, because
+/// `std::nullopt <= now` is true.
 [[nodiscard]] constexpr bool is_due(std::optional<TimePoint> deadline, TimePoint now)
 {
     return deadline.has_value() && *deadline <= now;
 }
 
-/// The earlier of two deadlines; nullopt means never.
+/// Returns the earlier of two deadlines; nullopt means never.
 [[nodiscard]] constexpr std::optional<TimePoint> earlier(std::optional<TimePoint> a,
                                                          std::optional<TimePoint> b)
 {
@@ -36,19 +36,19 @@ using TimePoint = Timeline::time_point;
     return *a < *b ? a : b;
 }
 
-/// A duration as a floating-point number of seconds, for physics.
+/// Converts a duration to a floating-point number of seconds, for physics.
 [[nodiscard]] constexpr double to_seconds(Duration duration)
 {
     return std::chrono::duration<double>{duration}.count();
 }
 
-/// A duration as a floating-point number of nanoseconds, exact below 104 days.
+/// Converts a duration to a floating-point number of nanoseconds. It is exact below 104 days.
 [[nodiscard]] constexpr double to_nanoseconds(Duration duration)
 {
     return static_cast<double>(duration.count());
 }
 
-/// The duration nearest to `seconds`; `seconds` must be finite and below 292 years.
+/// Returns the duration nearest to `seconds`, which must be finite and below 292 years.
 [[nodiscard]] constexpr Duration from_seconds(double seconds)
 {
     const double nanoseconds = seconds * 1e9;

@@ -23,11 +23,11 @@ namespace hapnet::base {
 
 struct FieldTable;
 
-/// The table of a described struct (field_table.hpp).
+/// Returns the table of a described struct (field_table.hpp).
 template <Described T>
 [[nodiscard]] const FieldTable& field_table();
 
-/// A T for each value of an enum.
+/// An array with one T for each value of an enum.
 template <Named Enum, typename T>
 struct ByName {
     std::array<T, names_of_enum<Enum>.size()> values{};
@@ -41,25 +41,25 @@ struct ByName {
     friend bool operator==(const ByName&, const ByName&) = default;
 };
 
-/// Values by names, in the order in which they are printed.
+/// Values with names, in the order in which they are printed.
 template <typename T>
 using Entries = std::vector<std::pair<std::string, T>>;
 
-/// A value without parts, as JSON and cells of CSV know it.
+/// A value without parts, as JSON and CSV cells contain it.
 using Leaf = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
 
-/// Operations on values for code that does not know their type. The `void` pointers point to values
-/// of that type. Each type has one constant, however many fields have the type.
+/// Operations on values of one type, for code that does not know the type. The `void` pointers
+/// point to values of that type. Each type has one constant, however many fields have the type.
 struct ValueKind {
     enum class Shape : std::uint8_t {
-        opaque, // only a format of its own reads and prints it
+        opaque, // only its own format can read and print it
         flag,
         whole, // a whole number
         number,
         time, // nanoseconds, printed in the unit that the key ends with
         text,
         choice, // one of `names`
-        maybe,  // an optional: a list of one element at most
+        maybe,  // an optional, treated as a list of at most one element
         list,
         map,   // elements with names
         record // a described struct
@@ -70,30 +70,31 @@ struct ValueKind {
     /// The names of a choice, or of a map whose elements are always the same.
     std::span<const std::string_view> names{};
 
-    // flag, whole, number, time, text and choice
+    // For flag, whole, number, time, text and choice.
     Leaf (*get)(const void* value) = nullptr;
-    /// Sets `value` from a leaf. Returns false, and leaves the value, where the leaf is of another
-    /// kind or out of range.
+    /// Sets `value` from a leaf. Returns false, and leaves the value unchanged, if the leaf is of
+    /// another kind or out of range.
     bool (*set)(void* value, const Leaf& leaf) = nullptr;
 
-    // maybe, list and map
+    // For maybe, list and map.
     const ValueKind* element = nullptr;
     std::size_t (*size)(const void* value) = nullptr;
     void* (*at)(void* value, std::size_t index) = nullptr;
-    std::size_t length = 0; // length of a list that cannot grow
-    // nullptr: a list that cannot grow
+    std::size_t length = 0; // length of a list of fixed length
+    // Removes all elements. nullptr: a list of fixed length.
     void (*clear)(void* value) = nullptr;
-    /// Adds an element at the end. Elements are added one at a time, so that a text with many wrong
-    /// elements takes no more memory than its readable elements. A maybe has to be empty.
+    /// Adds an element at the end and returns it. Elements are added one at a time, so that a text
+    /// with many wrong elements takes no more memory than its readable elements. A maybe must be
+    /// empty.
     void* (*add)(void* value) = nullptr;
 
-    // map
+    // For map only.
     std::string_view (*name_at)(const void* value, std::size_t index) = nullptr;
 
-    // record
+    // For record only.
     const FieldTable& (*table)() = nullptr;
 
-    /// An element that is not to be changed.
+    /// Returns an element for reading.
     [[nodiscard]] const void* element_at(const void* value, std::size_t index) const
     {
         return at(const_cast<void*>(value), index); // NOLINT(*-const-cast): it is only looked up
@@ -107,7 +108,7 @@ struct ValueKind {
 
 namespace detail {
 
-/// Returns the whole number in a leaf; nullopt: it does not fit this type.
+/// Returns the whole number in a leaf; nullopt if it does not fit this type.
 template <std::integral T>
 [[nodiscard]] std::optional<T> whole_from(const Leaf& leaf)
 {
@@ -120,7 +121,7 @@ template <std::integral T>
 }
 
 [[nodiscard]] std::optional<double> number_from(const Leaf& leaf);
-/// Returns the index of the leaf among the names; nullopt: it is not one of them.
+/// Returns the index of the leaf among the names; nullopt if it is not one of them.
 [[nodiscard]] std::optional<std::size_t> choice_from(const Leaf& leaf,
                                                      std::span<const std::string_view> names);
 
@@ -240,7 +241,7 @@ struct Kind<std::optional<T>> {
         .add = [](void* value) -> void* { return &static_cast<Maybe*>(value)->emplace(T{}); }};
 };
 
-/// The kind of a pointer: a maybe with the value that it points to.
+/// The kind of a pointer: a maybe that contains the value that it points to.
 template <typename T>
 struct Kind<const T*> {
     static constexpr ValueKind kind{

@@ -7,12 +7,12 @@
 
 namespace hapnet::base {
 
-/// The version in project() of CMakeLists.txt: "1.2.3".
+/// Returns the version in project() of CMakeLists.txt: "1.2.3".
 [[nodiscard]] std::string_view version();
-/// The commit the program was built from, with "-dirty" when the tree was changed; "unknown"
-/// outside a git checkout.
+/// Returns the commit that the program was built from, with "-dirty" if the tree was changed, or
+/// "unknown" outside a git checkout.
 [[nodiscard]] std::string_view commit();
-/// "GCC 12.2.0"
+/// Returns the compiler: "GCC 12.2.0".
 [[nodiscard]] std::string_view compiler();
 /// Returns the output of `--version`: "hapnet-peer 1.2.3 (commit abc, GCC 12.2.0)".
 [[nodiscard]] std::string version_line(std::string_view program);

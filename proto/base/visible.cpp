@@ -17,7 +17,7 @@ struct Character {
     std::size_t bytes = 0; // 0: not UTF-8
 };
 
-/// The first character of a text that is not empty (RFC 3629).
+/// Returns the first character of a text, which must not be empty (RFC 3629).
 Character first_of(std::string_view text)
 {
     const auto at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -7,10 +7,10 @@
 
 namespace hapnet::base {
 
-/// Text from a file or another program, as a terminal may show it: control characters become
-/// `\u001B`, and bytes that are not UTF-8 become `\x9B`. Other text stays as it is.
+/// Makes text from a file or another program safe for a terminal: control characters become
+/// `\u001B`, and bytes that are not UTF-8 become `\x9B`. Other text is unchanged.
 [[nodiscard]] std::string visible(std::string_view text);
-/// Like visible(), for text of several lines: line ends and tabs stay.
+/// Does the same as visible() for text of several lines: line ends and tabs are kept.
 [[nodiscard]] std::string visible_lines(std::string_view text);
 
 } // namespace hapnet::base

@@ -28,7 +28,7 @@ bool is_any_of(std::span<const std::string_view> choices, std::string_view word)
     return std::find(choices.begin(), choices.end(), word) != choices.end();
 }
 
-/// `help`, `help run` and, where the program has an argument, `SOCKET help set`, as --help.
+/// Replaces `help`, `help run` and, if the program has an argument, `SOCKET help set`, by --help.
 Words without_help_word(Words words, const Command& program)
 {
     const bool has_argument =
@@ -44,7 +44,8 @@ Words without_help_word(Words words, const Command& program)
     return words;
 }
 
-/// `--generate WHAT`, the first words: what packages install beside the program.
+/// Handles `--generate WHAT` as the first words. It prints files that packages install with the
+/// program.
 std::optional<base::Result<std::string>> generated(const Words& words, const Command& program)
 {
     if (words.empty() || !words.front().starts_with(generate_word)) return std::nullopt;
@@ -62,7 +63,7 @@ std::optional<base::Result<std::string>> generated(const Words& words, const Com
                                 generate_values, what)}};
 }
 
-/// --help and --version count wherever they stand, and whatever else is wrong with the line.
+/// --help and --version take effect at any place, even if the line has errors.
 std::optional<std::string> answer(const Words& words, const Command& program)
 {
     const auto end = std::find(words.begin(), words.end(), "--");
@@ -83,7 +84,7 @@ std::optional<std::string> answer(const Words& words, const Command& program)
 
 } // namespace
 
-/// Sorts a program's words: the chosen command, and what stands behind each option.
+/// Assigns a program's words: the chosen command, and the values of each option.
 class Syntax {
 public:
     explicit Syntax(Command& program) : program_{program} {}
@@ -103,7 +104,8 @@ public:
     }
 
 private:
-    /// The first word that is the name of a command chooses it. Behind "--" are arguments alone.
+    /// Assigns the words. The first word that is the name of a command chooses it. All words after
+    /// "--" are arguments.
     base::Result<void> sort()
     {
         bool are_arguments = false;
@@ -133,7 +135,7 @@ private:
         return nullptr;
     }
 
-    /// Calls look(options) for those that may stand here, until it gives something.
+    /// Calls look(options) for each set of options that is allowed here, until it returns one.
     template <typename Look>
     [[nodiscard]] Option* look_here(const Look& look) const
     {
@@ -142,7 +144,7 @@ private:
         return found == nullptr && has_more ? look(program_.options_) : found;
     }
 
-    /// "-s" or "--socket"; nullptr: there is none of that name here.
+    /// Returns the option "-s" or "--socket"; nullptr if there is none with that name here.
     [[nodiscard]] Option* option_of(std::string_view name) const
     {
         return look_here([name](std::list<Option>& options) -> Option* {
@@ -157,7 +159,7 @@ private:
         });
     }
 
-    /// A number with a sign is none.
+    /// True for an option. A number with a sign is not an option.
     [[nodiscard]] bool is_option(const std::string& word) const
     {
         if (word.size() < 2 || word[0] != '-') return false;
@@ -165,7 +167,7 @@ private:
         return !is_digit || option_of(word.substr(0, 2)) != nullptr;
     }
 
-    /// `--delay 1ms`, `--delay=1ms`, `-d 1ms`, `-d1ms` and `-d=1ms`.
+    /// Takes `--delay 1ms`, `--delay=1ms`, `-d 1ms`, `-d1ms` and `-d=1ms`.
     base::Result<void> take_option(const std::string& word)
     {
         const bool is_long = word.starts_with("--");
@@ -216,11 +218,12 @@ private:
 
     [[nodiscard]] Command& chosen() const { return chosen_ == nullptr ? program_ : *chosen_; }
 
-    /// Words that nothing has taken, and options that the chosen command does not have.
+    /// Refuses arguments that no positional takes, and options that the chosen command does not
+    /// have.
     [[nodiscard]] base::Result<void> nothing_left() const
     {
         const bool is_command_missing = program_.needs_command() && chosen_ == nullptr;
-        // The words of a command to run, in the place of the options.
+        // The words of a command to run, in a place where options may be.
         if (is_rest_first_ && chosen().usage_end().starts_with("-- ")) {
             return base::fail(
                 fmt::format("'{}' is not an option: put -- before the command that is "
@@ -265,7 +268,7 @@ private:
 
     [[nodiscard]] base::Result<void> command_missing() const
     {
-        // A word in the place of a command may have been taken for the program's argument.
+        // A misspelt command may have been taken as the program's argument.
         for (const Option& option : program_.options_) {
             const Words& texts = texts_of(option);
             if (option.is_positional() && !texts.empty() &&
@@ -365,7 +368,7 @@ Command& Command::command(std::string name, std::string summary)
 base::Result<std::optional<std::string>> Command::parse(std::span<char*> words)
 {
     const auto behind_name = words.subspan(std::min<std::size_t>(words.size(), 1));
-    // A command of commands reads what follows it.
+    // A command that has commands parses the words after it.
     for (Command& command : commands_) {
         if (!command.commands_.empty() && !behind_name.empty() &&
             command.name() == behind_name.front())

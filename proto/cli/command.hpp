@@ -14,52 +14,53 @@
 
 namespace hapnet::cli {
 
-/// A program's command line, or one of its commands: options that are bound to the places that
-/// their values go to. Looks nothing up and opens nothing, except what its parsers do.
+/// A program's command line, or one of its commands. Options are bound to the variables that their
+/// values are stored in. The class looks nothing up and opens nothing, except what its parsers do.
 ///
-/// Understood everywhere, and in no need of being added: -h, --help, `help`, `help COMMAND`, -V and
-/// --version. An option or command that does not exist is answered with the one that was probably
-/// meant.
+/// -h, --help, `help`, `help COMMAND`, -V and --version are always understood and need not be
+/// added. The error for an unknown option or command suggests the one that was probably meant.
 class Command {
 public:
-    /// `name` as it is typed: "hapnet-lab", and in it "run". The summary stands in the program's
-    /// --help beside the name.
+    /// `name` is the word to type: "hapnet-lab", and "run" for its command. The program's --help
+    /// shows the summary beside the name.
     explicit Command(std::string name, std::string summary = "");
 
-    /// Sets the text of its --help above the options. Lines are filled to the width of the
-    /// terminal, except those that begin with a space. add_footer() sets the text below the
+    /// Sets the text that --help shows above the options. Lines are filled to the width of the
+    /// terminal, except lines that begin with a space. add_footer() sets the text below the
     /// options.
     void describe(std::string text) { description_ = std::move(text); }
     void add_footer(std::string text) { footer_ = std::move(text); }
-    /// Sets the exit codes of --help, a line each: "  0  done". Commands without their own list
-    /// show the program's.
+    /// Sets the exit codes that --help shows, one per line: "  0  done". Commands without their own
+    /// list show the list of the program.
     void add_exit_codes(std::string text) { exit_codes_ = std::move(text); }
-    /// Sets the end of its usage line: "-- COMMAND [ARGUMENT ...]", words that parse() never sees.
+    /// Sets the end of the usage line: "-- COMMAND [ARGUMENT ...]". parse() never sees these words.
     void add_usage(std::string words) { usage_end_ = std::move(words); }
 
     Option& option(std::string names, std::string value, std::string help, Take take);
     Option& flag(std::string names, std::string help, bool& target);
-    /// Arguments are taken in their order. One that is repeated comes last.
+    /// Adds a positional argument. Positionals are filled in the order in which they were added; a
+    /// repeated one must be the last.
     Option& positional(std::string name, std::string help, Take take);
 
     Command& command(std::string name, std::string summary);
-    /// Requires one of the program's commands. The program's own options then apply to all
-    /// commands. Otherwise they apply to a run without a command.
+    /// Requires that one of the program's commands is given. The program's own options then apply
+    /// to all commands. Otherwise they apply only if no command is given.
     void require_command() { needs_command_ = true; }
     /// Adds another spelling of the command, which --help does not show.
     void add_alias(std::string alias) { aliases_.push_back(std::move(alias)); }
 
-    /// Reads a program's words; words[0] is its name. A text is to be printed instead of running:
-    /// that of --help or --version. nullopt: everything has been taken.
+    /// Parses a program's command line; words[0] is the program's name. Returns a text if one is to
+    /// be printed instead of running, as for --help or --version. nullopt: all values have been
+    /// stored.
     [[nodiscard]] base::Result<std::optional<std::string>> parse(std::span<char*> words);
 
-    /// True after parse() if this command was asked for, or this option given.
+    /// True if parse() found this command or option in the command line.
     [[nodiscard]] bool is_chosen() const { return is_chosen_; }
     [[nodiscard]] bool is_given(std::string_view option_name) const;
 
-    // The parts of --help.
+    // Parts of the output of --help.
 
-    /// The command as it is typed in full: "hapnet-lab run".
+    /// Returns the full command as it is typed: "hapnet-lab run".
     [[nodiscard]] std::string path() const;
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const std::string& summary() const { return summary_; }

@@ -37,7 +37,7 @@ Words choices(const Option& option)
     return words;
 }
 
-/// The options that are understood where a command stands, without its arguments.
+/// Returns the options that are accepted where a command is typed, without its arguments.
 std::vector<const Option*> understood(const Command& command)
 {
     std::vector<const Option*> all;
@@ -51,7 +51,7 @@ std::vector<const Option*> understood(const Command& command)
     return all;
 }
 
-/// All its spellings, and those of every command.
+/// Returns all spellings of a command and of its commands.
 Words spellings(const Command& command)
 {
     Words names;
@@ -93,7 +93,7 @@ std::string in_quotes(std::string_view text)
 
 // --- bash ------------------------------------------------------------------------------------
 
-/// A case for each option that takes one of certain words.
+/// Returns a case for each option that takes one of a set of words.
 std::string bash_values(const Command& command)
 {
     std::string text;

@@ -11,8 +11,8 @@ namespace hapnet::cli {
 
 enum class Shell : std::uint8_t { bash, zsh, fish };
 
-/// Returns the script that completes a program's command line in a shell: its commands, its
-/// options, the words that an option takes, and files where an option takes other values.
+/// Returns a script with which a shell completes a program's command line. It completes commands,
+/// options and the words that an option takes, and file names for options that take other values.
 [[nodiscard]] std::string completion(const Command& program, Shell shell);
 
 } // namespace hapnet::cli

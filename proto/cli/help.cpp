@@ -42,7 +42,7 @@ std::string folded(std::string_view words, std::size_t column, std::size_t inden
     return text;
 }
 
-/// Returns where the second column of "  name   what it is" begins; npos: there is none.
+/// Returns the position of the second column in "  name   what it is"; npos if there is none.
 std::size_t second_column(std::string_view line)
 {
     const auto name = line.find_first_not_of(' ');
@@ -50,7 +50,7 @@ std::size_t second_column(std::string_view line)
     return gap == std::string_view::npos ? gap : line.find_first_not_of(' ', gap);
 }
 
-/// A line that begins with a space.
+/// Formats a line that begins with a space.
 std::string kept(std::string_view line, std::size_t indent, std::size_t columns)
 {
     const std::string margin(indent, ' ');
@@ -73,14 +73,14 @@ std::vector<std::string_view> lines_of(std::string_view text)
     return lines;
 }
 
-/// "  --delay TIME            What it does", folded under its second column.
+/// Returns "  --delay TIME            What it does", wrapped below its second column.
 std::string row(const std::string& name, std::string_view help, std::size_t columns)
 {
     std::string text = "  " + name;
     const bool fits = text.size() + 2 <= names_width;
     text +=
         fits ? std::string(names_width - text.size(), ' ') : "\n" + std::string(names_width, ' ');
-    // The margin of the first line is there already.
+    // The first line already has its margin.
     return text + filled(help, names_width, columns).substr(names_width) + "\n";
 }
 
@@ -110,7 +110,7 @@ std::string group_text(const Command& command, const std::string& group, std::si
                       columns);
 }
 
-/// The options of a program that belong to each of its commands.
+/// Returns the options of a program that apply to each of its commands.
 std::string options_of_every(const Command& program, std::size_t columns)
 {
     std::string rows;
@@ -178,7 +178,7 @@ std::string filled(std::string_view text, std::size_t indent, std::size_t column
     return out;
 }
 
-/// Its path, with what may be left out in brackets.
+/// Returns the path of a command, with optional parts in brackets.
 std::string shown_path(const Command& command)
 {
     if (command.parent() == nullptr) return command.name();

@@ -10,7 +10,7 @@
 
 namespace hapnet::cli {
 
-/// Returns the width of --help: the terminal's on stdout, or 80 columns without a terminal.
+/// Returns the width for --help: that of the terminal at stdout, or 80 columns without a terminal.
 [[nodiscard]] std::size_t help_columns();
 
 /// The option that prints files for packages, and its values.
@@ -20,15 +20,16 @@ inline constexpr std::string_view generate_values = "man|bash|zsh|fish";
 /// Returns the output of a command's `--help`.
 [[nodiscard]] std::string help_text(const Command& command, std::size_t columns);
 
-/// Returns an option as a usage line shows it: "[--for TIME]".
+/// Returns an option in the notation of usage lines: "[--for TIME]".
 [[nodiscard]] std::string in_usage(const Option& option);
 
-/// "hapnet-lab run EXPERIMENT --out DIR [OPTIONS]": can be pasted and filled in.
+/// Returns a usage line that can be pasted and filled in: "hapnet-lab run EXPERIMENT --out DIR
+/// [OPTIONS]".
 [[nodiscard]] std::string usage(const Command& command);
 
-/// Fills the lines of a text up to `columns`, each behind `indent` spaces. Lines that begin with a
-/// space stay as they are, except for those of a list ("  name   what it is"), which are folded
-/// under their second column.
+/// Fills the lines of a text up to `columns`, with `indent` spaces before each. Lines that begin
+/// with a space are unchanged, except list lines ("  name   what it is"), which continue below
+/// their second column.
 [[nodiscard]] std::string filled(std::string_view text, std::size_t indent, std::size_t columns);
 
 } // namespace hapnet::cli

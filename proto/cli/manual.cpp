@@ -26,7 +26,7 @@ std::string escaped(std::string_view text)
 
 std::string bold(std::string_view text) { return fmt::format("*{}*", escaped(text)); }
 
-/// Prose, and lines that begin with a space as they are.
+/// Formats prose. Lines that begin with a space are unchanged.
 std::string prose(std::string_view text)
 {
     std::string out;

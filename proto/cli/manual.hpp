@@ -8,7 +8,7 @@
 
 namespace hapnet::cli {
 
-/// The manual page of a program and its commands, section 1, as scdoc(5) takes it.
+/// Returns the manual page (section 1) of a program and its commands, in the format of scdoc(5).
 [[nodiscard]] std::string manual(const Command& program);
 
 } // namespace hapnet::cli

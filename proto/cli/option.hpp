@@ -15,11 +15,11 @@
 
 namespace hapnet::cli {
 
-/// Takes what stands behind an option. The error says what is wrong with the text and what would be
-/// right; the option's name is put before it.
+/// Takes the value of an option. The error says what is wrong with the text and what would be
+/// right. Callers put the option's name in front of it.
 using Take = std::function<base::Result<void>(const std::string& text)>;
 
-/// Puts into `target` what `parse` makes of the text. `parse` gives a base::Result.
+/// Returns a Take that stores the result of `parse` in `target`. `parse` returns a base::Result.
 template <typename Target, typename Parse>
 [[nodiscard]] Take into(Target& target, Parse parse)
 {
@@ -46,7 +46,7 @@ template <typename T, base::FormatOf<T> Format>
     return base::fail(reading.complaint()->substr(2)); // skips the empty name and its colon
 }
 
-/// Puts into `target` what the text says by a format.
+/// Returns a Take that parses the text by a format and stores the value in `target`.
 template <typename Target, typename Format>
 requires base::FormatOf<Format, base::WithoutOptional<Target>>
 [[nodiscard]] Take into(Target& target, Format format)
@@ -56,14 +56,14 @@ requires base::FormatOf<Format, base::WithoutOptional<Target>>
     });
 }
 
-/// Puts the text itself into `target`.
+/// Returns a Take that stores the text itself in `target`.
 template <typename Target>
 [[nodiscard]] Take into(Target& target)
 {
     return into(target, [](const std::string& text) -> base::Result<std::string> { return text; });
 }
 
-/// Adds the text to `target`: for options that may be given several times.
+/// Returns a Take that appends the text to `target`, for options that may be given several times.
 [[nodiscard]] inline Take onto(std::vector<std::string>& target)
 {
     return [&target](const std::string& text) -> base::Result<void> {
@@ -74,15 +74,15 @@ template <typename Target>
 
 /// An option, a flag, or a positional argument of a command.
 struct Option {
-    std::string names; // "-s,--socket"; for a positional its name in usage lines: "PROFILE"
+    std::string names; // for a positional, its name in usage lines: "PROFILE"
     std::string value; // name of its value: "TIME"; "" for a flag
     std::string help;
     Take take;
     std::string group = "Options"; // heading in --help
     std::string example{};         // for a required option: a value that could be given
     bool is_repeated = false;
-    bool is_instead = false; // prints something instead of running: nothing else is required
-    bool is_hidden = false;  // left out of --help, whose heading for the group says how it is made
+    bool is_instead = false; // prints something instead of running; no other option is required
+    bool is_hidden = false;  // left out of --help; the heading of its group describes it
     bool is_given = false;   // valid after parse()
 
     Option& required(std::string value_to_show)
@@ -114,7 +114,7 @@ struct Option {
     [[nodiscard]] bool is_positional() const { return !names.starts_with('-'); }
     [[nodiscard]] bool is_flag() const { return value.empty() && !is_positional(); }
     [[nodiscard]] bool is_required() const { return !example.empty(); }
-    /// The long name: "--socket".
+    /// Returns the long name: "--socket".
     [[nodiscard]] std::string name() const { return names.substr(names.rfind(',') + 1); }
 };
 

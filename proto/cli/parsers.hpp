@@ -12,7 +12,7 @@
 
 namespace hapnet::cli {
 
-// Parsers for options, beside the formats of proto/base/formats.hpp and the parsers of
+// Parsers for options, in addition to the formats of proto/base/formats.hpp and the parsers of
 // proto/base/text.hpp. Errors quote the text and say what is possible.
 
 template <typename T>
@@ -21,10 +21,10 @@ using Parser = std::function<base::Result<T>(const std::string& text)>;
 /// Parses any whole number of 64 bits.
 [[nodiscard]] base::Result<base::Seed> seed(const std::string& text);
 
-/// Parses one of some words, in small or capital letters.
+/// Returns a parser that accepts one of some words, in small or capital letters.
 [[nodiscard]] Parser<std::string> one_of(std::vector<std::string> words);
 
-/// Parses the name of one of the values of an enum, in small or capital letters.
+/// Parses the name of a value of an enum, in small or capital letters.
 template <base::Named Enum>
 [[nodiscard]] base::Result<Enum> named(const std::string& text)
 {

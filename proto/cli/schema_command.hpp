@@ -14,9 +14,9 @@ namespace hapnet::cli {
 
 /// A kind of document that a program prints or writes, and its JSON Schema.
 struct DocumentSchema {
-    std::string_view name;           // name that `schema NAME` takes
+    std::string_view name;           // the NAME in `schema NAME`
     std::string_view written;        // text of the schema if `make` is nullptr
-    std::string (*make)() = nullptr; // makes it from a struct (proto/output/schema.hpp)
+    std::string (*make)() = nullptr; // generates the schema from a struct (proto/output/schema.hpp)
 
     [[nodiscard]] std::string text() const
     {
@@ -24,7 +24,7 @@ struct DocumentSchema {
     }
 };
 
-/// `schema [--list | NAME]`, a command of every program that prints JSON.
+/// The command `schema [--list | NAME]`, which every program that prints JSON has.
 class SchemaCommand {
 public:
     SchemaCommand(Command& program, std::vector<DocumentSchema> documents);
@@ -33,7 +33,7 @@ public:
     ~SchemaCommand() = default;
 
     [[nodiscard]] bool is_chosen() const { return command_->is_chosen(); }
-    /// Returns the text to print: the schema, or the names and titles of all.
+    /// Returns the text to print: the schema, or the names and titles of all schemas.
     [[nodiscard]] std::string text() const;
 
 private:

@@ -15,7 +15,7 @@ namespace hapnet::cli {
 namespace {
 
 /// A word that a user may type, and its name here: an option ("--rate"), or a command line of a
-/// program ("hapnet-emulator check"). Only what the program at hand has is proposed.
+/// program ("hapnet-emulator check"). Only names that the present program has are suggested.
 struct Synonym {
     std::string_view typed;
     std::string_view meant;
@@ -151,7 +151,7 @@ constexpr std::array synonyms{
     Synonym{"step", "--tick"},
 };
 
-/// A word in the place of a command, and what to type instead.
+/// Words in the place of a command, and the command to suggest.
 constexpr std::array commands{
     Synonym{"start", "hapnet-emulator --listen-a ADDRESS --listen-b ADDRESS"},
     Synonym{"run", "hapnet-emulator --listen-a ADDRESS --listen-b ADDRESS"},
@@ -194,7 +194,7 @@ constexpr std::array commands{
     Synonym{"restore", "hapnet-ctl SOCKET reset"},
 };
 
-/// A value of an option by another name. With `why` there is no such thing here.
+/// Another name for a value of an option. If `why` is set, this project has no such value.
 struct ValueSynonym {
     std::string_view option;
     std::string_view typed;
@@ -252,8 +252,7 @@ std::vector<std::string_view> names_of(const Command& program)
     return names;
 }
 
-/// Returns a table's proposal for a word; "" where the table has no proposal for it that this
-/// program has.
+/// Returns a table's suggestion for a word; "" if it has none that this program supports.
 template <std::size_t size>
 std::string proposed(const std::array<Synonym, size>& table, std::string_view word,
                      std::span<const std::string_view> options, const Command& program)

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t read_bytes_max = std::size_t{64} << 10;
 constexpr std::size_t admitted_at_a_time = 4;
 
-/// The listener's key in the wait set. The clients' keys are their places.
+/// The listener's key in the wait set. The keys of the clients are their indices.
 constexpr std::uint64_t listener_key = Server::clients_max;
 
 } // namespace
@@ -69,7 +69,7 @@ void Server::attend(const net::Ready& ready)
     auto& client = clients_[ready.key];
     if (!client) return;
     const bool can_be_read = ready.is_readable && client->conversation.room() > 0;
-    // A client that has gone may have left requests behind, which are read first.
+    // Requests of a client that has disconnected may still be unread, so they are read first.
     if (can_be_read && take(*client) != net::Transfer::State::ended) return;
     if (ready.is_gone) client->conversation.on_gone();
 }

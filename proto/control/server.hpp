@@ -16,32 +16,33 @@
 
 namespace hapnet::control {
 
-/// A control socket and its connected clients. Moves bytes between them and their Conversations, a
-/// little at a time, so that the serving loop can do other work in between.
+/// A control socket and its connected clients. Moves bytes between the clients and their
+/// Conversations, a little in each call, so that the serving loop can do other work in between.
 class Server {
 public:
     static constexpr std::size_t clients_max = 16;
-    /// Clients that have hung up leave their place at once. The earlier requests of this many such
-    /// clients are still done, a little at a time; beyond that, the oldest requests are given up.
+    /// The number of disconnected clients whose earlier requests are still carried out, a little at
+    /// a time. Beyond it, the oldest requests are given up. A client that disconnects always frees
+    /// its place at once.
     static constexpr std::size_t departed_max = 16;
 
-    /// Limits of the work that clients cause.
+    /// Limits of the work that clients can cause.
     struct Limits {
         std::size_t line_bytes = Conversation::line_bytes_max;
-        int answers = 1; // largest number in one serve()
+        int answers = 1; // most requests that one serve() answers
     };
 
-    /// Throws std::system_error when the socket cannot be made.
+    /// Throws std::system_error if the socket cannot be created.
     explicit Server(std::string path) : Server{std::move(path), Limits{}} {}
     Server(std::string path, const Limits& limits);
 
-    /// Readable when there is something to do.
+    /// Readable when serve() has something to do.
     [[nodiscard]] int descriptor() const { return wait_set_.descriptor(); }
 
     /// Returns when to call serve() again although descriptor() is not readable.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
-    /// Does a little of what there is to do: no more is answered than the limits say.
+    /// Does some of the pending work. It answers no more requests than the limits allow.
     void serve(const Subject& subject, base::TimePoint now);
 
 private:
@@ -53,7 +54,7 @@ private:
 
     void attend(const net::Ready& ready);
     void admit();
-    /// Reads what the client has sent, as far as there is room for it.
+    /// Reads the client's input, as far as there is room for it.
     static net::Transfer::State take(Client& client);
     void answer_one(const Subject& subject, base::TimePoint now);
     static void send(Client& client, base::TimePoint now);
@@ -64,8 +65,8 @@ private:
     Limits limits_;
     net::WaitSet wait_set_;
     std::array<std::optional<Client>, clients_max> clients_;
-    std::deque<Conversation> departed_; // clients are gone, their requests are not done yet
-    std::size_t turn_ = 0;              // place of the client whose turn is next
+    std::deque<Conversation> departed_; // disconnected clients with unfinished requests
+    std::size_t turn_ = 0;              // index of the client that is served next
     bool has_more_ = false;             // a request may be waiting already
 };
 

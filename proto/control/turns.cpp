@@ -9,7 +9,7 @@ void Turns::run(const Step& step)
     is_done_ = false;
     work_.store(&step);
     ordered_.signal();
-    // Either the loop sees the work when it closes, or this sees that it has closed.
+    // Either the loop sees the work when it closes, or this thread sees that the loop has closed.
     if (is_closed_.load()) work_.store(nullptr);
     work_.wait(&step);
     if (!is_done_) throw LoopHasEnded{};

@@ -66,7 +66,8 @@ std::string random_letters()
 {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz012345";
     std::array<unsigned char, 12> bytes{}; // 60 bits
-    // Never in part, and no longer than the system takes to start (getrandom(2)).
+    // The call returns all bytes or none, and waits at most until the system has started
+    // (getrandom(2)).
     while (getrandom(bytes.data(), bytes.size(), 0) < 0 && errno == EINTR) {}
     std::string name;
     for (const unsigned char byte : bytes) name += letters[byte % letters.size()];

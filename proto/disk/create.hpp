@@ -11,27 +11,28 @@
 
 namespace hapnet::disk {
 
-// Every file that a program writes is opened here. `flags` are those of open(2) that say how it is
-// written: O_WRONLY, O_RDWR, O_APPEND.
+// Functions that open every file that a program writes. `flags` are those of open(2) for the kind
+// of writing: O_WRONLY, O_RDWR, O_APPEND.
 
-/// Makes a file that was not there. The error is EEXIST if anything is, a link included.
+/// Creates a new file. The error is EEXIST if anything has that name, even a link.
 [[nodiscard]] Outcome<Descriptor> create(const Place& place, int flags, mode_t mode);
-/// Makes a new file like create(), under another name in the folder of `place`.
+/// Creates a new file like create(), with another name in the folder of `place`.
 [[nodiscard]] Outcome<Descriptor> create_beside(const Place& place, const std::string& name,
                                                 int flags, mode_t mode);
 
-/// Opens an existing file to write to it, or makes a file of that mode. Does not empty an existing
-/// file. Refuses the files that Place::why_not_written_to() rejects.
+/// Opens an existing file for writing without emptying it, or creates a file with that mode.
+/// Refuses the files that Place::why_not_written_to() rejects.
 [[nodiscard]] Outcome<Descriptor> open_to_write(const Place& place, int flags, mode_t mode);
 [[nodiscard]] Outcome<Descriptor> open_to_write(const std::string& path, int flags, mode_t mode);
 
-/// Makes a file beside a place that has no name and goes with its descriptor.
+/// Creates a file without a name, in the folder of a place. It vanishes when its descriptor is
+/// closed.
 [[nodiscard]] Outcome<Descriptor> create_nameless(const Place& beside);
 
-/// Letters that no other user can guess, for a name.
+/// Returns letters for a name that no other user can guess.
 [[nodiscard]] std::string random_letters();
 
-/// The part of a text that was written: all of it, unless there is an error.
+/// The number of bytes of a text that were written. It is the whole text unless there is an error.
 struct Written {
     std::size_t bytes = 0;
     std::error_code error{};

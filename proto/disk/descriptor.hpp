@@ -11,7 +11,7 @@ namespace hapnet::disk {
 class Descriptor {
 public:
     Descriptor() = default;
-    /// Takes what open() gave; -1 is none.
+    /// Takes the result of open(); -1 means no descriptor.
     explicit Descriptor(int number) : number_{number} {}
     Descriptor(Descriptor&& other) noexcept : number_{other.release()} {}
     Descriptor& operator=(Descriptor&& other) noexcept
@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] bool is_open() const { return number_ >= 0; }
     [[nodiscard]] int number() const { return number_; }
-    /// Gives the descriptor away: the caller closes it.
+    /// Releases the descriptor, which the caller has to close.
     [[nodiscard]] int release() { return std::exchange(number_, -1); }
 
 private:

@@ -15,7 +15,7 @@ namespace hapnet::disk {
 
 namespace {
 
-/// Says what to do, so no cure is added to it.
+/// These messages say what to do, so no cure is added to them.
 class RefusalCategory : public std::error_category {
 public:
     [[nodiscard]] const char* name() const noexcept override { return "shared folder"; }
@@ -48,7 +48,7 @@ tl::unexpected<std::error_code> refused(int error)
     return tl::unexpected{std::error_code{error, std::generic_category()}};
 }
 
-/// Takes the first name off a relative path.
+/// Removes the first name from a relative path and returns it.
 std::string take_name(std::string& path)
 {
     const auto end = std::min(path.find('/'), path.size());
@@ -57,7 +57,7 @@ std::string take_name(std::string& path)
     return name;
 }
 
-/// The folder in which a path begins, which becomes relative to it.
+/// Opens the folder in which a path begins. The path becomes relative to it.
 Descriptor beginning_of(std::string& path)
 {
     const char* start = path.starts_with('/') ? "/" : ".";
@@ -67,7 +67,7 @@ Descriptor beginning_of(std::string& path)
 
 bool is_this_user_or_root(uid_t owner) { return owner == geteuid() || owner == 0; }
 
-/// True if `owner`, who owns a file or a link in the folder, may decide where this user writes.
+/// True if `owner`, the owner of a file or a link in the folder, may decide where this user writes.
 bool is_trusted(uid_t owner, int folder)
 {
     struct stat of_folder {};
@@ -75,7 +75,7 @@ bool is_trusted(uid_t owner, int folder)
            (fstat(folder, &of_folder) == 0 && owner == of_folder.st_uid);
 }
 
-/// Returns the target of a link; "": errno says why it is not known.
+/// Returns the target of a link; "" with the reason in errno.
 std::string target_of(int folder, const std::string& name)
 {
     std::array<char, PATH_MAX> text{};
@@ -83,7 +83,7 @@ std::string target_of(int folder, const std::string& name)
     return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
 }
 
-/// True for a folder of /proc, some of whose links lead to what has no path.
+/// True for a folder of /proc. Some of its links lead to files without a path.
 bool is_of_kernel(int folder)
 {
     struct statfs of_folder {};
@@ -145,7 +145,7 @@ std::error_code Place::why_not_written_to(mode_t mode) const
 {
     if (!found_ || is_open_file_) return {};
     if (S_ISDIR(found_->st_mode)) return {EISDIR, std::generic_category()};
-    // Only root makes devices, whichever user owns them.
+    // Only root can create devices, whoever owns them.
     if (!is_regular() && !is_pipe()) return {};
     const uid_t owner = found_->st_uid;
     const bool is_secret = (mode & (S_IRWXG | S_IRWXO)) == 0;

@@ -18,12 +18,12 @@ namespace hapnet::disk {
 
 namespace {
 
-/// The way in which others than its owner, this user and root may use a file: not at all, by its
-/// mode, or by its access control list.
+/// The access to a file by users other than its owner, this user and root: none, by its mode, or by
+/// its access control list.
 enum class Others : std::uint8_t { none, by_mode, by_list };
 
-/// An entry of an access control list, as the kernel writes it (linux/posix_acl_xattr.h): numbers
-/// with the lowest byte first.
+/// An entry of an access control list in the kernel's encoding (linux/posix_acl_xattr.h). Numbers
+/// are little-endian.
 struct AclEntry {
     std::uint32_t tag = 0;
     std::uint32_t permissions = 0;
@@ -46,7 +46,8 @@ AclEntry entry_in(std::span<const unsigned char> bytes)
     return {number_in(bytes.first(2)), number_in(bytes.subspan(2, 2)), number_in(bytes.last(4))};
 }
 
-/// True if the list gives anything to another user or to a group. It ends with a whole entry.
+/// True if the list gives any access to another user or to a group. Its length must be that of
+/// whole entries.
 bool gives_to_others(std::span<const unsigned char> entries)
 {
     std::uint32_t mask = 7; // limits all entries but those of the owner and `other`
@@ -64,8 +65,8 @@ bool gives_to_others(std::span<const unsigned char> entries)
     return false;
 }
 
-/// Finds out if others may use a file. With an access control list the group's bits of the mode are
-/// the mask of the list.
+/// Determines the access of other users. If there is an access control list, the group bits of the
+/// mode are its mask.
 Others others_of(int descriptor, const struct stat& status)
 {
     std::array<unsigned char, version_bytes + 512 * entry_bytes> list{};
@@ -119,7 +120,7 @@ base::Result<std::string> read_private(const std::string& path, const PrivateKin
     if (fstat(file.number(), &status) != 0) return refuse(std::strerror(errno));
     if (std::string why = complaint(file, status, path, kind); !why.empty())
         return base::fail(std::move(why));
-    // Never moved while it grows: what is freed would keep the secret.
+    // The text is allocated once, because growing would leave the secret in freed memory.
     std::string text(static_cast<std::size_t>(status.st_size), '\0');
     std::size_t size = 0;
     while (size < text.size()) {

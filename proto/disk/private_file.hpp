@@ -11,8 +11,8 @@
 
 namespace hapnet::disk {
 
-/// The kind of a file with a secret: its name in messages, its largest size, and its rule for
-/// links.
+/// A kind of file with a secret: its name in messages, its largest size, and whether links are
+/// allowed.
 struct PrivateKind {
     enum class Links : std::uint8_t { refused, followed };
 
@@ -21,10 +21,10 @@ struct PrivateKind {
     Links links = Links::refused;
 };
 
-/// Reads a regular file that holds a secret. It belongs to this user or to root, and no other user
-/// and no group may read or write it: neither by its mode nor by its access control list
-/// (acl(5)), by which systemd lets the user of a service read credentials that belong to root. The
-/// error says what is wrong, and the command that mends it.
+/// Reads a regular file with a secret. It must belong to this user or to root, and no other user
+/// and no group may read or write it. Both its mode and its access control list (acl(5)) count: by
+/// the latter, systemd lets the user of a service read credentials that belong to root. The error
+/// says what is wrong, and which command mends it.
 [[nodiscard]] base::Result<std::string> read_private(const std::string& path,
                                                      const PrivateKind& kind);
 

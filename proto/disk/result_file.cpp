@@ -32,14 +32,14 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
         error, fmt::format("{}{}cannot write {}", option, option.empty() ? "" : ": ", path)};
 }
 
-/// True if the process of a "PID" has ended, as far as can be seen from here.
+/// True if the process with this "PID" has ended, as far as this process can see.
 bool has_ended(std::string_view pid)
 {
     const auto number = base::parse_count(pid, std::numeric_limits<pid_t>::max());
     return number && *number > 0 && kill(static_cast<pid_t>(*number), 0) != 0 && errno == ESRCH;
 }
 
-/// True for the temporary name of a file that a process wrote which has ended.
+/// True for the temporary name of `file` if the process that wrote it has ended.
 bool is_leftover(std::string_view name, std::string_view file)
 {
     if (name.size() <= file.size() + ending.size() || !name.starts_with(file)) return false;
@@ -49,7 +49,7 @@ bool is_leftover(std::string_view name, std::string_view file)
     return has_ended(name.substr(0, name.find('.')));
 }
 
-/// Removes what killed processes have left of a file.
+/// Removes temporary files that killed processes have left.
 void remove_leftovers(const Place& place)
 {
     const int again = openat(place.folder(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -64,7 +64,7 @@ void remove_leftovers(const Place& place)
         struct stat found {};
         const bool is_ours = file.is_open() && fstat(file.number(), &found) == 0 &&
                              S_ISREG(found.st_mode) && found.st_uid == geteuid();
-        // Locked: its writer lives in another container, where it has that number.
+        // If it is locked, its writer is in another container, where it has that number.
         if (is_ours && flock(file.number(), LOCK_EX | LOCK_NB) == 0)
             unlinkat(place.folder(), name, 0);
     }

@@ -11,38 +11,36 @@
 
 namespace hapnet::disk {
 
-/// A file that appears whole or not at all: it is written beside its place under a temporary name,
-/// which is taken at construction, so that a place that cannot be written is found before the run
-/// and not after it. An existing file that is not regular (a device, a pipe) is never replaced but
-/// written to. Place says which symbolic links are followed and whose pipes are written to. A file
-/// of another user is not written to: a new one takes its name.
+/// A file that appears either complete or not at all. It is written under a temporary name in the
+/// same folder. The constructor creates the temporary file, so that an unwritable place is found
+/// before the run and not after it. An existing file that is not regular (a device, a pipe) is
+/// written to and never replaced. Place says which symbolic links are followed and which pipes are
+/// written to. A file of another user is not written to: a new file takes its name.
 ///
-/// The temporary name is FILE.PID.LETTERS.partial. A process that is killed leaves it behind, with
-/// what it had written; the next one that writes FILE removes it.
+/// The temporary name is FILE.PID.LETTERS.partial. A process that is killed leaves this file
+/// behind, with the text that it had written. The next process that writes FILE removes it.
 class ResultFile {
 public:
-    /// Throws std::system_error naming the file, and the option that asked for it, if one did.
-    /// `mode`: of the file, as far as the umask of the process lets it.
+    /// Throws std::system_error naming the file, and the option that asked for it, if there is one.
+    /// `mode` is the mode of the file, reduced by the umask of the process.
     explicit ResultFile(std::string path, std::string_view option = "", unsigned mode = 0644);
-    /// Removes what was not committed.
+    /// Removes the temporary file unless it was committed or kept.
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;
     ResultFile& operator=(const ResultFile&) = delete;
 
-    /// Writes text that the file goes on with. Throws std::system_error; then none of it is
-    /// written.
+    /// Appends text to the file. Throws std::system_error; then none of the text is written.
     void append(std::string_view text);
 
-    /// Moves what was written to its place, after append() has failed. False: there is nothing of
-    /// it there.
+    /// Moves the written part to its place after append() has failed. Returns false if none of it
+    /// is there.
     bool keep() noexcept;
 
-    /// Writes the text that it ends with and moves the file to its place. Throws
-    /// std::system_error.
+    /// Writes the last text and moves the file to its place. Throws std::system_error.
     void commit(std::string_view text);
 
-    /// Commits like commit(), and returns once the whole file is on the disk. If the machine fails
-    /// meanwhile, it has the old file or the new one.
+    /// Does the same as commit(), and returns once the whole file is on the disk. If the machine
+    /// fails meanwhile, the disk has the old file or the new one.
     void commit_to_disk(std::string_view text);
 
 private:
@@ -50,7 +48,7 @@ private:
 
     std::string path_;
     std::optional<Place> place_; // always set after construction
-    std::string temporary_;      // a name in the folder of the place; empty: written in place
+    std::string temporary_;      // name in the folder of the place; empty: no temporary file
     off_t length_ = 0;
     Descriptor file_;
 };

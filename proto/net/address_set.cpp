@@ -26,7 +26,7 @@ bool is_numeric(const std::string& host)
            inet_pton(AF_INET6, host.c_str(), &unused) == 1;
 }
 
-/// "[::1]" without its brackets.
+/// Returns "::1" for "[::1]".
 std::string_view without_brackets(std::string_view host)
 {
     const bool has = host.size() > 2 && host.front() == '[' && host.back() == ']';

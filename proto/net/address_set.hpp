@@ -14,7 +14,7 @@
 
 namespace hapnet::net {
 
-/// Addresses as a user has typed them; a name is not looked up.
+/// An address pattern as a user types it. Names are not looked up.
 ///
 /// - "10.0.0.1:7000", "[::1]:7000", "host:7000": this port of this host
 /// - "10.0.0.1", "[::1]", "host", "host:*": any port of this host
@@ -22,17 +22,17 @@ namespace hapnet::net {
 struct AddressPattern {
     std::string host;
     std::optional<std::uint16_t> port;  // nullopt: any port
-    std::optional<unsigned int> prefix; // bits that are compared; nullopt: all of them
+    std::optional<unsigned int> prefix; // number of bits that are compared; nullopt: all of them
 };
 [[nodiscard]] base::Result<AddressPattern> parse_address_pattern(std::string_view text);
 
-/// The endpoints that some patterns name. An IPv4 address and the IPv6 address that stands for it
-/// ("::ffff:10.0.0.1") are one.
+/// The endpoints that match some patterns. An IPv4 address and its form as an IPv6 address
+/// ("::ffff:10.0.0.1") are equal.
 class AddressSet {
 public:
-    /// Looks up the host, in the family of the socket that hears it (AF_UNSPEC: any). The error
-    /// says what is wrong with the pattern; throws std::system_error when the name does not
-    /// resolve.
+    /// Adds a pattern and looks up its host, in the family of the receiving socket (AF_UNSPEC:
+    /// any). The error says what is wrong with the pattern. Throws std::system_error if the name
+    /// does not resolve.
     base::Result<void> add(const AddressPattern& pattern, int family = AF_UNSPEC);
 
     /// Adds an address with any port.
@@ -41,11 +41,11 @@ public:
     [[nodiscard]] bool contains(const Endpoint& endpoint) const;
     [[nodiscard]] bool empty() const { return members_.empty(); }
 
-    /// True if every address is on this machine.
+    /// True if every address belongs to this machine.
     [[nodiscard]] bool is_loopback() const;
 
 private:
-    using Bytes = std::array<std::uint8_t, 16>; // an address as IPv6
+    using Bytes = std::array<std::uint8_t, 16>; // an address in the form of IPv6
     struct Member {
         Bytes address{};
         unsigned int bits = 0; // number of bits that are compared
@@ -56,7 +56,7 @@ private:
     std::vector<Member> members_;
 };
 
-/// The addresses of this machine, as they are now.
+/// Returns the addresses that this machine has now.
 [[nodiscard]] AddressSet addresses_of_this_machine();
 
 } // namespace hapnet::net

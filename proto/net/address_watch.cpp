@@ -14,7 +14,7 @@ namespace hapnet::net {
 
 namespace {
 
-/// A socket to which the kernel tells each change of an address; -1 where that is forbidden.
+/// Returns a socket on which the kernel reports each change of an address; -1 if that is forbidden.
 int changes_of_addresses()
 {
     const int changes = socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE);
@@ -28,7 +28,7 @@ int changes_of_addresses()
     return changes;
 }
 
-/// True if a socket can be bound to the address. Any other trouble than a lost address counts as
+/// True if a socket can be bound to the address. Errors other than a lost address also count as
 /// true.
 bool has_address(const Endpoint& local)
 {
@@ -63,7 +63,7 @@ std::vector<AddressWatch::News> AddressWatch::news()
 {
     std::array<char, 4096> message{};
     bool has_changed = false;
-    // One that overflowed (ENOBUFS) has changed, too.
+    // A queue that overflowed (ENOBUFS) also means a change.
     while (true) {
         const auto count = recv(socket_, message.data(), message.size(), 0);
         if (count < 0 && errno != ENOBUFS) break;

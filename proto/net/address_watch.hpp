@@ -8,18 +8,20 @@
 
 namespace hapnet::net {
 
-/// Tells when this machine loses an address that sockets are bound to, as with the interface that
-/// had it, and when the address is back. A socket alone does not show it: nothing arrives any more.
+/// Reports when this machine loses an address that sockets are bound to, as it does with the
+/// address's interface, and when the address is back. The socket itself does not show the loss: it
+/// only receives nothing more.
 class AddressWatch {
 public:
-    /// The addresses of the sockets; one that stands for all addresses is never lost. Where the
-    /// system does not tell of its addresses (AF_NETLINK is forbidden) there is no news.
+    /// Watches the addresses of these sockets. A wildcard address is never lost. There is no news
+    /// if the system does not report address changes (AF_NETLINK is forbidden).
     explicit AddressWatch(const std::vector<Endpoint>& locals);
     ~AddressWatch();
     AddressWatch(const AddressWatch&) = delete;
     AddressWatch& operator=(const AddressWatch&) = delete;
 
-    /// Readable when addresses of this machine have changed; -1: the system does not tell.
+    /// Readable when addresses of this machine have changed; -1: the system does not report
+    /// changes.
     [[nodiscard]] int descriptor() const { return socket_; }
 
     struct News {

@@ -28,16 +28,16 @@ SendOutcome outcome_of(int error)
     }
 }
 
-/// True if the kernel says that it will not cut this message: EINVAL or EMSGSIZE for a segment
-/// that is larger than the MTU, EIO for a device that computes no checksums, the others for a
-/// kernel without UDP_SEGMENT.
+/// True if the kernel refuses to split this message: EINVAL or EMSGSIZE for a segment larger than
+/// the MTU, EIO for a device that computes no checksums, the others for a kernel without
+/// UDP_SEGMENT.
 bool is_refusal(int error)
 {
     return error == EINVAL || error == EMSGSIZE || error == EIO || error == ENOPROTOOPT ||
            error == EOPNOTSUPP;
 }
 
-/// True if what is sent there goes as IPv4: also to an IPv4 address in an IPv6 one.
+/// True if datagrams to this endpoint are sent as IPv4, which includes IPv4-mapped IPv6 addresses.
 bool goes_as_v4(const Endpoint& to)
 {
     if (to.family() == AF_INET) return true;
@@ -46,7 +46,7 @@ bool goes_as_v4(const Endpoint& to)
     return IN6_IS_ADDR_V4MAPPED(&address.sin6_addr);
 }
 
-/// Writes what stands beside a message, one value behind the other.
+/// Writes the items of a message's control data, one after the other.
 class ControlWriter {
 public:
     explicit ControlWriter(std::span<std::byte> bytes) : bytes_{bytes} {}
@@ -78,8 +78,8 @@ void put_marks(ControlWriter& control, base::IpMarks marks, bool as_v4)
                 int{marks.hop_limit});
 }
 
-/// True if a call that has just failed may have failed for the answer to an earlier datagram, which
-/// is taken then. Answers may come as fast as datagrams are sent.
+/// True if a call that has just failed may have failed because of an ICMP answer to an earlier
+/// datagram. Takes that answer. Answers may arrive as fast as datagrams are sent.
 bool may_try_again(int descriptor, ErrorQueue* answers, int trial)
 {
     constexpr int trials_max = 4;
@@ -161,7 +161,7 @@ BatchSender::send(int descriptor, const Endpoint& to,
     return {outcomes_.data(), datagrams.size()};
 }
 
-/// Returns the number of datagrams, from the first on, that can leave as one message.
+/// Returns the number of datagrams, counted from the first, that can be sent as one message.
 std::size_t BatchSender::train_length(std::span<const std::span<const std::byte>> neighbours,
                                       std::span<const base::IpMarks> marks) const
 {

@@ -22,7 +22,7 @@ namespace hapnet::net {
 
 namespace {
 
-/// Forks; the child is the first process of a new PID namespace. -1 where that is refused.
+/// Forks. The child is the first process of a new PID namespace. Returns -1 if that is refused.
 pid_t fork_first_process()
 {
     return static_cast<pid_t>(
@@ -36,7 +36,7 @@ void close_all(std::initializer_list<int> descriptors)
     }
 }
 
-/// The terminal whose keys go to the group of this process; -1: there is none.
+/// Returns the terminal whose keys send signals to the group of this process; -1 if there is none.
 int terminal_of_this_group()
 {
     const int terminal = open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY);
@@ -57,7 +57,7 @@ ChildCommand::ChildCommand(const Setup& setup)
     if (!setup.has_own_group) terminal_ = terminal_of_this_group();
 }
 
-/// Starts the command. Returns false when the system refuses a PID namespace.
+/// Starts the command. Returns false if the system refuses a PID namespace.
 bool ChildCommand::start(const Setup& setup, bool has_own_processes)
 {
     std::array<int, 2> orders{-1, -1};
@@ -87,7 +87,8 @@ bool ChildCommand::start(const Setup& setup, bool has_own_processes)
     return false;
 }
 
-/// Throws what failed. False when the init has no PID namespace that it can use.
+/// Waits for a report and throws the error in it. Returns false if the init has no usable PID
+/// namespace.
 bool ChildCommand::await_report()
 {
     InitReport report;
@@ -119,14 +120,15 @@ std::optional<int> ChildCommand::exit_code()
     int code = 0;
     const auto count = read(ended_, &code, sizeof code);
     if (count < 0) return std::nullopt; // the command still runs
-    // Without a code the init was killed, and the command with it.
+    // No code means that the init was killed, and the command with it.
     exit_code_ = count == static_cast<ssize_t>(sizeof code) ? code : 128 + SIGKILL;
     give_terminal_back();
     return exit_code_;
 }
 
-/// A shell in a PID namespace makes itself the group of the terminal, and cannot name the former
-/// one at its end. Does nothing when a group that still lives has the terminal.
+/// A shell in a PID namespace makes its own group the foreground group of the terminal, and cannot
+/// restore the previous one when it ends. Does nothing if the terminal belongs to a group that
+/// still lives.
 void ChildCommand::give_terminal_back() const
 {
     if (terminal_ < 0) return;

@@ -10,14 +10,14 @@
 
 namespace hapnet::net {
 
-/// A command as a child process, with all processes that it starts. They belong to a process of
-/// this program, the init of the command, and none of them outlives this object or this program,
-/// whatever ends it:
+/// A command in a child process, with all processes that it starts. They are descendants of a
+/// process of this program, the init of the command. None of them outlives this object or this
+/// program, whatever ends it:
 ///
 /// - A command with its own network has its own PID namespace, in which the init is process 1. The
 ///   kernel kills all processes in it when the init ends.
-/// - Where the system refuses that, and for other commands, the init is a subreaper
-///   (PR_SET_CHILD_SUBREAPER): it kills its descendants when this program has ended.
+/// - If the system refuses that, and for other commands, the init is a subreaper
+///   (PR_SET_CHILD_SUBREAPER). It kills its descendants when this program has ended.
 class ChildCommand {
 public:
     struct Setup {
@@ -27,29 +27,30 @@ public:
         bool has_own_network = false;
         bool has_own_group = false;             // own process group, and /dev/null as stdin
         int output = -1;                        // stdout and stderr; -1: those of this process
-        std::vector<std::string> environment{}; // "NAME=value", besides those of this process
-        std::string hosts{};                    // lines that it sees after those of /etc/hosts
+        std::vector<std::string> environment{}; // "NAME=value", added to those of this process
+        std::string hosts{};                    // lines added to its /etc/hosts
         std::string name_servers{};             // text of its /etc/resolv.conf; "": unchanged
         /// Runs in the command's network when prepare() is called, before the command runs. Throws
         /// std::system_error.
         std::function<void()> prepare{};
     };
 
-    /// Starts the init, which waits for prepare() and go(). The process must have one thread.
-    /// Throws std::system_error when it cannot have what the setup asks for.
+    /// Starts the init, which waits for prepare() and go(). The process must have only one thread.
+    /// Throws std::system_error if the system refuses what the setup requires.
     explicit ChildCommand(const Setup& setup);
     /// Kills the command and all processes that it has started, and waits for their end.
     ~ChildCommand();
     ChildCommand(const ChildCommand&) = delete;
     ChildCommand& operator=(const ChildCommand&) = delete;
 
-    /// Runs Setup::prepare in the command's network, and returns when it is done. Throws the error
-    /// that it failed with.
+    /// Runs Setup::prepare in the command's network, and returns when it is done. Throws the
+    /// exception that it failed with.
     void prepare();
-    /// Runs the command. Throws std::system_error when there is no such command.
+    /// Runs the command. Throws std::system_error if there is no such command.
     void go();
 
-    /// The init, which is in the network of the command as long as this object lives.
+    /// Returns the process id of the init, which is in the network of the command as long as this
+    /// object lives.
     [[nodiscard]] pid_t pid() const { return pid_; }
     /// Readable or hung up once the command has ended.
     [[nodiscard]] int descriptor() const { return ended_; }

@@ -34,8 +34,8 @@ base::Duration thread_processor_time() { return used_on(CLOCK_THREAD_CPUTIME_ID)
 
 base::Duration program_processor_time() { return used_on(CLOCK_PROCESS_CPUTIME_ID); }
 
-/// Being interrupted between the readings would shift the stamps by as much, so the closest of a
-/// few readings counts; the first usually does.
+/// An interruption between two readings would shift the stamps, so the closest of a few readings
+/// counts. Usually it is the first.
 base::Duration monotonic_minus_real()
 {
     constexpr int readings_max = 4;

@@ -9,35 +9,36 @@
 
 namespace hapnet::net {
 
-/// CLOCK_BOOTTIME: it never steps. It also runs while the machine is suspended, so that a loop
-/// notices the gap and the motors count as cooled. The project has no other clock; a shell calls it
-/// once per wake-up.
+/// Returns the time of CLOCK_BOOTTIME. It never steps, and it also runs while the machine is
+/// suspended. So a loop notices the gap, and the motors count as cooled. The project has no other
+/// clock. A shell calls this once per wake-up.
 [[nodiscard]] base::TimePoint monotonic_now();
 
-/// The processor time that the calling thread has used, in the kernel and out of it. A system call.
+/// Returns the processor time that the calling thread has used, in user and kernel mode. It makes a
+/// system call.
 [[nodiscard]] base::Duration thread_processor_time();
 
-/// The processor time that all threads of this program have used so far. A system call.
+/// Returns the processor time that all threads of this program have used. It makes a system call.
 [[nodiscard]] base::Duration program_processor_time();
 
-/// The time of day in seconds since 1970, for manifests, file names, captures
-/// and what outlives a program only.
+/// Returns the time of day in seconds since 1970. Use it only for manifests, file names, captures
+/// and data that outlives the program.
 [[nodiscard]] double wall_clock_seconds();
 
-/// The time of day in nanoseconds since 1970, for what is dated; it may step either way.
+/// Returns the time of day in nanoseconds since 1970, for dates. It may step either way.
 [[nodiscard]] std::int64_t wall_clock_nanoseconds();
-/// The clock of monotonic_now() minus CLOCK_REALTIME, in which the kernel stamps what arrives.
+/// Returns monotonic_now() minus CLOCK_REALTIME, the clock of the kernel's receive stamps.
 [[nodiscard]] base::Duration monotonic_minus_real();
 
-/// Sleeps until `when` on that clock; returns at once when it has passed.
+/// Sleeps until monotonic_now() reaches `when`. Returns at once if it already has.
 void sleep_until(base::TimePoint when);
 
-/// The identity of this boot of this machine: two records with equal boot ids have one
-/// clock and compare directly, unless their echoes rule that out (base::are_two_clocks). Empty when
-/// the system does not tell.
+/// Returns the identity of this boot of this machine; empty if the system does not provide it. Two
+/// records with equal boot ids have one clock, so their times can be compared directly, unless
+/// their echoes rule that out (base::are_two_clocks).
 [[nodiscard]] std::string boot_id();
 
-/// 64 bits from the kernel's random source, for session nonces; never for an experiment.
+/// Returns 64 bits from the kernel's random source, for session nonces and never for an experiment.
 [[nodiscard]] std::uint64_t unpredictable_bits();
 
 } // namespace hapnet::net

@@ -44,9 +44,9 @@ std::string text_of_system_file(const std::string& path)
     return text.str();
 }
 
-/// A folder in memory that only this mount namespace has. Its files stay valid where they are
-/// mounted over others. Unlinked files would not do: no other file can be mounted over them, as
-/// another emulator does within the command.
+/// A folder in memory that only this mount namespace has. Its files stay valid after they were
+/// mounted over others. Unlinked files could not be used: no other file can be mounted over them,
+/// and another emulator within the command needs that.
 class FolderInMemory {
 public:
     FolderInMemory()
@@ -66,7 +66,7 @@ public:
     FolderInMemory(const FolderInMemory&) = delete;
     FolderInMemory& operator=(const FolderInMemory&) = delete;
 
-    /// Puts a text in the place of a file, for this mount namespace alone.
+    /// Replaces the content of a file for this mount namespace only.
     void put_over(const char* place, const std::string& text)
     {
         const auto name = fmt::format("{}/{}", path_, ++files_);
@@ -92,7 +92,7 @@ bool enter_own_mounts()
            mount("none", "/", nullptr, MS_REC | MS_SLAVE, nullptr) == 0;
 }
 
-/// The default again for what the program has blocked or ignored for itself.
+/// Restores the default handling of signals that the program has blocked or ignored for itself.
 void reset_signals()
 {
     sigset_t none;
@@ -103,7 +103,8 @@ void reset_signals()
     }
 }
 
-/// The parent of a process, as /proc/PID/stat says it behind the name, which may hold anything.
+/// Returns the parent of a process from /proc/PID/stat. It is after the name, which may contain any
+/// characters.
 pid_t parent_of(std::string_view process)
 {
     const auto text = text_of_system_file(fmt::format("/proc/{}/stat", process));
@@ -129,9 +130,9 @@ std::vector<pid_t> children_of_this_process()
     return children;
 }
 
-/// Kills the descendants of a subreaper. Children of a process that has ended become its own, and
-/// die in the next round. Gives up after 2 s: a process may be beyond its power, as one of another
-/// user.
+/// Kills the descendants of a subreaper. Children of a process that has ended become its own
+/// children, and are killed in the next round. Gives up after 2 s, because it may not be allowed to
+/// kill a process, such as one of another user.
 void kill_descendants()
 {
     constexpr int rounds = 200;
@@ -155,14 +156,14 @@ public:
 
     [[noreturn]] void live()
     {
-        // Keys of the terminal and signals to the group are for the command, and come to it.
+        // Keys of the terminal and signals to the group also reach the command, which handles them.
         sigset_t all;
         sigfillset(&all);
         sigprocmask(SIG_SETMASK, &all, nullptr);
         std::signal(SIGCHLD, SIG_DFL); // if it were ignored, there would be no exit codes
         prctl(PR_SET_NAME, init_name);
         if (is_first_) {
-            // Works also while this process is stopped. A subreaper must live on, to kill the
+            // This also works while this process is stopped. A subreaper must live on to kill the
             // others.
             prctl(PR_SET_PDEATHSIG, SIGKILL);
         } else {
@@ -173,7 +174,7 @@ public:
     }
 
 private:
-    /// Its namespaces. False: no PID namespace that works.
+    /// Enters its namespaces. Returns false if there is no usable PID namespace.
     bool settle()
     {
         constexpr unsigned long proc_flags = MS_NOSUID | MS_NODEV | MS_NOEXEC;
@@ -187,7 +188,7 @@ private:
         return true;
     }
 
-    /// Reports how a step went. False when it failed.
+    /// Reports the result of a step. Returns false if it failed.
     template <typename Step>
     bool take_step(Step step) const
     {
@@ -195,7 +196,7 @@ private:
         try {
             if (!step()) report.kind = InitReport::Kind::refused;
         } catch (const std::system_error& error) {
-            // what() of it has the reason at its end, which is added again.
+            // what() has the reason at its end, which the receiver adds again.
             std::string_view what = error.what();
             const auto reason = ": " + error.code().message();
             if (what.ends_with(reason)) what.remove_suffix(reason.size());
@@ -207,7 +208,7 @@ private:
         return report.kind == InitReport::Kind::done;
     }
 
-    /// Waits for an order, the end of a child, or that of the program.
+    /// Waits for an order, the end of a child, or the end of the program.
     void serve()
     {
         std::array<pollfd, 3> polled{
@@ -248,7 +249,7 @@ private:
         return true;
     }
 
-    /// Starts the command, and returns when it runs.
+    /// Starts the command, and returns true once it runs.
     bool start()
     {
         sigset_t child;
@@ -260,7 +261,7 @@ private:
         command_ = fork();
         if (command_ < 0) deny_network(errno, "fork");
         if (command_ == 0) become_command(failure[1]);
-        // The child does so, too: either may come first.
+        // The child does the same, because either may be first.
         if (setup_.has_own_group) setpgid(command_, command_);
         close(failure[1]);
         int error = 0;
@@ -299,7 +300,7 @@ private:
         _exit(127);
     }
 
-    /// Collects the command, and every process that has lost its own parent.
+    /// Reaps the command, and every process that has lost its own parent.
     void reap()
     {
         signalfd_siginfo ignored{};

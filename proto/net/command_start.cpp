@@ -17,8 +17,8 @@ namespace hapnet::net {
 
 namespace {
 
-/// True if a descriptor is readable, as that of a command is once the command has ended. Nothing is
-/// read here, only polled: the command's exit code belongs to another thread.
+/// True if a descriptor is readable, as a command's descriptor is once the command has ended.
+/// Nothing is read, because the exit code of the command belongs to another thread.
 bool is_readable(int descriptor)
 {
     pollfd polled{descriptor, POLLIN, 0};
@@ -31,8 +31,8 @@ struct Awaited {
     bool has_ended;
 };
 
-/// True if processes are left of a command that has ended: they are children of its init now.
-/// False, too, where the kernel does not tell.
+/// True if a command that has ended has left processes, which are now children of its init. Also
+/// false if the kernel cannot tell.
 bool has_left_processes(pid_t init)
 {
     std::ifstream children{fmt::format("/proc/{0}/task/{0}/children", init)};
@@ -87,7 +87,7 @@ void CommandStart::run() noexcept
     done_.signal();
 }
 
-/// Waits until the last command may start. Returns false when the start was called off.
+/// Waits until the last command may start. Returns false if the start was cancelled.
 bool CommandStart::awaits_last()
 {
     constexpr int pause_ms = 10;

@@ -15,26 +15,26 @@
 
 namespace hapnet::net {
 
-/// Starts commands on a thread of its own. Starting a program and looking for its
-/// listener take milliseconds, in which the thread that relays their frames would be late.
+/// Starts commands on its own thread. Starting a program and looking for its listener take
+/// milliseconds, which would delay the thread that relays the frames of the commands.
 class CommandStart {
 public:
-    /// A command that starts first.
+    /// A command that must start before the last one.
     struct Before {
         ChildCommand& command;
-        /// True once the last command may start, as far as this one is concerned. Called every
-        /// 10 ms until then, on the thread of the start.
+        /// Returns true once this command allows the last command to start. It is called every 10
+        /// ms until then, on the starting thread.
         std::function<bool()> is_ready;
     };
 
-    /// The last command starts after this time in any case.
+    /// The time after which the last command starts in any case.
     static constexpr base::Duration patience = std::chrono::seconds{1};
 
-    /// Starts all of `before`, in their order, and `last` once each of them is ready, or has ended
-    /// and left nothing in the background that may be about to listen.
-    /// Until is_done(), only the exit codes of the commands may be asked for elsewhere.
+    /// Starts all of `before`, in their order. Starts `last` once each of them is ready, or has
+    /// ended without background processes that may still begin to listen. Until is_done(), other
+    /// threads may only ask for the exit codes of the commands.
     CommandStart(ChildCommand& last, std::vector<Before> before);
-    /// Ends the thread. Does not start what has not started yet.
+    /// Ends the thread. Commands that have not started yet are not started.
     ~CommandStart();
     CommandStart(const CommandStart&) = delete;
     CommandStart& operator=(const CommandStart&) = delete;
@@ -42,9 +42,9 @@ public:
     /// Starts the last command without waiting any longer.
     void hurry();
 
-    /// Readable once is_done() is worth asking.
+    /// Readable when is_done() may have changed.
     [[nodiscard]] int descriptor() const { return done_.descriptor(); }
-    /// True once all commands have started. Throws std::system_error when one cannot be started.
+    /// True once all commands have started. Throws std::system_error if one cannot be started.
     [[nodiscard]] bool is_done() const;
 
 private:
@@ -58,7 +58,7 @@ private:
     std::atomic<bool> is_hurried_{false};
     std::atomic<bool> is_over_{false};
     std::atomic<bool> is_done_{false};
-    std::exception_ptr failure_; // written before is_done_
+    std::exception_ptr failure_; // written before is_done_ is set
     std::thread thread_;         // last member: it uses the others
 };
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t crash_stack_bytes = 65536;
 
-/// The state that a signal handler reads. Nothing is passed to a handler, so that this has to be
-/// global. It is set before the handlers are installed, and only read by them.
+/// The state that a signal handler reads. It must be global, because a handler has no argument for
+/// it. It is set before the handlers are installed, which only read it.
 struct HandlerState {
     std::atomic<int> dying{-1};
     std::atomic<int> in_order{-1};
@@ -35,7 +35,7 @@ void add_one_to(int counter)
     std::ignore = write(counter, &one, sizeof one);
 }
 
-/// Calls nothing but what signal-safety(7) allows.
+/// Calls only functions that signal-safety(7) allows.
 extern "C" void hapnet_on_crash(int number)
 {
     for (std::size_t i = 0; i < CrashSignal::signals.size(); ++i) {
@@ -69,8 +69,8 @@ CrashSignal::CrashSignal() : dying_{make_counter()}, in_order_{make_counter()}
     for (std::size_t i = 0; i < signals.size(); ++i) {
         struct sigaction& former = handler_state.former[i];
         sigaction(signals[i], &action, &former);
-        // A program does not die of a signal that it was told to ignore, such as SIGQUIT in the
-        // background.
+        // A signal that was ignored from the start, such as SIGQUIT in the background, does not
+        // kill the program.
         if (former.sa_handler == SIG_IGN) sigaction(signals[i], &former, nullptr);
     }
 }

@@ -11,11 +11,11 @@
 
 namespace hapnet::net {
 
-/// The signals by which a program comes to a sudden end (abort() and with it std::terminate() and a
-/// failed ensure(), a wild pointer, too much real time, a file beyond its limit, ...) as something
-/// to wait for. The thread that dies is held for at most 20 ms, in which another one may leave the
-/// world in order; then the program dies as it would have without. Construct at most one, early.
-/// Nothing helps against SIGKILL.
+/// Makes the signals of a sudden end of the program (abort() and with it std::terminate() and a
+/// failed ensure(), an invalid pointer, too much real time, a file beyond its limit, ...) something
+/// to wait for. The crashing thread is held for at most 20 ms, in which another thread can bring
+/// the devices to a safe state. Then the program dies as it would have without this class.
+/// Construct at most one, early. SIGKILL cannot be handled.
 class CrashSignal {
 public:
     CrashSignal();
@@ -23,20 +23,20 @@ public:
     CrashSignal(const CrashSignal&) = delete;
     CrashSignal& operator=(const CrashSignal&) = delete;
 
-    /// Readable once the program is dying, and from then on.
+    /// Readable once the program is crashing, and from then on.
     [[nodiscard]] int descriptor() const { return dying_; }
-    /// True if the signal's descriptor is readable, for a loop that checks without waiting.
+    /// True if descriptor() is readable. For a loop that checks without waiting.
     [[nodiscard]] static bool has_come() noexcept;
-    /// Lets the program die: everything is in a safe state.
+    /// Reports that everything is in a safe state, so that the program may die.
     void acknowledge() const;
-    /// Call it for other sudden ends of the program (ExitGuard): the descriptor becomes readable,
-    /// and the caller is held as a dying thread is. It does nothing without a CrashSignal. Calls
-    /// only what signal-safety(7) allows.
+    /// Call this for other sudden ends of the program (ExitGuard). The descriptor becomes readable,
+    /// and the caller is held like a crashing thread. Does nothing if there is no CrashSignal.
+    /// Calls only functions that signal-safety(7) allows.
     static void hold_to_the_end() noexcept;
 
     static constexpr base::Duration patience{std::chrono::milliseconds{20}};
-    // The signals that a program dies of by itself, then those that end it when they are sent by
-    // mistake.
+    // The signals that the program's own faults cause, followed by those that kill it when they are
+    // sent by mistake.
     static constexpr std::array signals{SIGABRT, SIGSEGV,   SIGBUS,  SIGFPE,  SIGILL,   SIGSYS,
                                         SIGTRAP, SIGXCPU,   SIGQUIT, SIGUSR1, SIGUSR2,  SIGALRM,
                                         SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT};
@@ -46,8 +46,8 @@ private:
     int in_order_ = -1;
 };
 
-/// A stack on which the calling thread can be told that its own has overflowed. One per thread that
-/// may crash; lives as long as the thread works.
+/// A signal stack for the calling thread, on which the overflow of its own stack can be handled.
+/// Each thread that may crash needs one, as long as it works.
 class CrashStack {
 public:
     CrashStack();

@@ -10,7 +10,7 @@ namespace hapnet::net {
 
 namespace {
 
-/// Errors of the system about addresses, with the words of the system.
+/// System errors about addresses. The messages are those of the system.
 class AddressErrors : public std::error_category {
 public:
     [[nodiscard]] const char* name() const noexcept override { return "address"; }
@@ -53,7 +53,7 @@ std::string_view cure_of_reaching(int error)
     }
 }
 
-/// Returns the cure for an error with a file, a folder, or a right.
+/// Returns the advice for an error with a file, a folder, or a permission.
 std::string_view cure_of_place(int error)
 {
     switch (error) {

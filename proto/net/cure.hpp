@@ -7,17 +7,18 @@
 
 namespace hapnet::net {
 
-/// The operation on an address that the system refused. One error number has different cures: for a
-/// port that may not be bound, and for a file that may not be written.
+/// The operation on an address that the system refused. It decides the advice, as one error number
+/// has different causes: with EACCES, a port may not be bound or a file may not be written.
 enum class AddressUse { bind, reach };
 
-/// The errors of the system about addresses. All others are taken to be about files and rights.
+/// The category of system errors about addresses. All other errors are taken to be about files and
+/// permissions.
 [[nodiscard]] const std::error_category& errors_of(AddressUse use);
 
-/// Returns the refusal of the system, and what a person can do about it.
+/// Returns the refusal of the system, with advice on what to do.
 [[nodiscard]] std::string explained(const std::system_error& error);
 
-/// Returns the refusal of a connection to a control socket, and what a person can do about it.
+/// Returns the refusal of a connection to a control socket, with advice on what to do.
 [[nodiscard]] std::string explained_connection(const std::system_error& error);
 
 } // namespace hapnet::net

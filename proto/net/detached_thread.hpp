@@ -6,9 +6,10 @@
 
 namespace hapnet::net {
 
-/// Starts a thread that is never joined, for work that may block for ever, such as writing to a
-/// pipe that is not read. The thread may run until the process ends, so it owns all that it uses.
-/// Its stack is small, as it may be locked into memory. Throws std::system_error.
+/// Starts a thread that is never joined, for work that may block forever, such as writing to a pipe
+/// that nobody reads. `work` must own everything it uses, because the thread may run until the
+/// process ends. The stack is small, because it may be locked into memory. Throws
+/// std::system_error.
 void start_detached(std::function<void()> work);
 
 } // namespace hapnet::net

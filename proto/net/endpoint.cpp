@@ -250,7 +250,7 @@ void require_route_from(const std::optional<Endpoint>& listen, const Endpoint& r
 {
     const int descriptor = socket(remote.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (descriptor < 0) throw std::system_error{errno, std::generic_category(), "socket"};
-    // An address that cannot be bound to is found where it is bound in earnest, and named there.
+    // If the address cannot be bound, the later bind of the real socket reports that.
     if (listen) std::ignore = bind(descriptor, listen->address(), listen->length());
     const int outcome = connect(descriptor, remote.address(), remote.length());
     const int error = errno;

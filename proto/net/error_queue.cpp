@@ -19,7 +19,7 @@ struct alignas(cmsghdr) Control {
     std::array<std::byte, 512> bytes{};
 };
 
-/// The next answer or error report; nullopt: there is none.
+/// Returns the next answer or error report; nullopt if there is none.
 std::optional<sock_extended_err> next_report(int descriptor)
 {
     Control control;

@@ -6,23 +6,23 @@
 
 namespace hapnet::net {
 
-/// The ICMP answers of other hosts to datagrams of a socket. The kernel returns such an answer as
-/// the error of the socket's next call, and also keeps it in a queue of its own.
+/// ICMP answers of other hosts to the datagrams of a socket. The kernel returns such an answer as
+/// the error of the socket's next call, and also keeps it in a separate queue.
 class ErrorQueue {
 public:
-    /// Has the kernel keep the answers to datagrams that this socket sends from now on.
+    /// Makes the kernel keep the answers to datagrams that this socket sends from now on.
     static void ask_for(int descriptor, int family);
 
-    /// Takes the answers that are there, at most 256 of them. True if there was one: then a call
-    /// that has just failed may have failed for it, and can be made again.
+    /// Takes the waiting answers, at most 256 of them. Returns true if there was one. A call that
+    /// has just failed may then have failed because of it, and can be repeated.
     bool drain(int descriptor);
 
-    /// A call told of less than it was asked for: answers may wait.
+    /// Notes that answers may be waiting, because a call handled fewer datagrams than it was given.
     void suspect() { is_suspected_ = true; }
     [[nodiscard]] bool is_suspected() const { return is_suspected_; }
 
-    /// Answers "port unreachable" so far: the host is there, and no program listens. Hosts limit
-    /// how many they send.
+    /// Returns the number of "port unreachable" answers so far. They mean that the host is up but
+    /// no program listens. Hosts limit the rate of these answers.
     [[nodiscard]] std::uint64_t unreachable() const { return unreachable_; }
 
 private:

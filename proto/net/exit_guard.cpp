@@ -19,18 +19,18 @@ namespace hapnet::net {
 
 namespace {
 
-/// Nothing is passed to a handler of exit(), so that this has to be global.
+/// It must be global, because a handler of exit() has no argument.
 std::atomic<const ExitGuard*> guard_of_exit{nullptr};
 
-/// The loaded object in which an address is; nullptr: none that is known.
+/// Returns the loaded object that contains an address; nullptr if none is known.
 const void* object_at(const void* address)
 {
     Dl_info info{};
     return dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
 }
 
-/// The file of the code that has called exit(); "" where that cannot be told. The innermost calls
-/// are those of this program's handler, and of the C library that calls it.
+/// Returns the file of the code that has called exit(); "" if it cannot be determined. The
+/// innermost calls are those of this program's handler and of the C library that calls it.
 std::string caller_of_exit()
 {
     std::array<void*, 32> calls{};
@@ -50,7 +50,7 @@ std::string caller_of_exit()
     return {};
 }
 
-/// Prints one line on stderr, unless stderr takes nothing: its reader may hang.
+/// Prints one line on stderr, unless that would block because its reader hangs.
 void say_last(std::string_view program, std::string_view text)
 {
     const auto line = fmt::format("{}: {}\n", program, text);

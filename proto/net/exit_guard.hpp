@@ -7,10 +7,10 @@
 
 namespace hapnet::net {
 
-/// While it lives, the program does not end by exit() or quick_exit(): that is a call by code that
-/// it has loaded, such as an algorithm in C. The guard then has the force ended as at a crash
+/// Catches exit() and quick_exit() as long as it lives. Such a call comes from code that the
+/// program has loaded, such as an algorithm in C. The guard then has the force ended as in a crash
 /// (CrashSignal), names the file of that code on stderr, and ends the program with exit_failed.
-/// Construct at most one. Nothing catches _exit(), execve() and SIGKILL.
+/// Construct at most one. _exit(), execve() and SIGKILL cannot be caught.
 class ExitGuard {
 public:
     /// The name of the program, for the message.

@@ -9,8 +9,8 @@ namespace hapnet::net {
 void survive_file_limit()
 {
     struct sigaction before {};
-    // A program that ignores the signal needs no change, and neither do the commands that it
-    // starts.
+    // If the program ignores the signal already, no change is needed, also not for the commands
+    // that it starts.
     if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
     struct sigaction nothing {};
     nothing.sa_handler = [](int) {}; // unlike SIG_IGN, a handler ends with exec()

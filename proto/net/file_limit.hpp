@@ -4,9 +4,9 @@
 
 namespace hapnet::net {
 
-/// From this call on, writing a file beyond the limit of the process (ulimit -f) fails with EFBIG,
-/// as it would with ENOSPC on a full disk. Before, SIGXFSZ ended the program. Commands that the
-/// program starts have the signal as it was.
+/// Makes writing beyond the file size limit of the process (ulimit -f) fail with EFBIG, just as a
+/// full disk gives ENOSPC, instead of ending the program by SIGXFSZ. Commands that the program
+/// starts get the original handling of the signal.
 void survive_file_limit();
 
 } // namespace hapnet::net

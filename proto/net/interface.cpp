@@ -87,7 +87,7 @@ public:
         std::memcpy(&bytes_[at], &length, sizeof length);
     }
 
-    /// Sends it and waits for the answer; 0 or an errno.
+    /// Sends the request and waits for the answer. Returns 0 or an errno.
     [[nodiscard]] int ask()
     {
         const Descriptor socket{::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE),
@@ -129,7 +129,7 @@ unsigned index_of(const std::string& interface)
     return index;
 }
 
-/// An address as bytes, 4 or 16.
+/// The 4 or 16 bytes of an address.
 struct IpBytes {
     std::uint8_t family = AF_INET;
     std::array<std::byte, 16> bytes{};
@@ -159,7 +159,7 @@ Descriptor any_socket() { return {socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0),
 
 constexpr auto lro_flag = static_cast<std::uint32_t>(ETH_FLAG_LRO);
 
-/// Reads or sets one word. Returns 0 or an errno.
+/// Reads or sets a value. Returns 0 or an errno.
 int ethtool(const std::string& interface, ethtool_value& value)
 {
     const auto socket = any_socket();
@@ -277,8 +277,8 @@ void ignore_router_advertisements(const std::string& interface)
 
 void switch_off_offloads(const std::string& interface)
 {
-    // The order matters: when checksums are no longer left to the device, the kernel itself cuts up
-    // what is left to cut.
+    // The order matters: once checksums are no longer left to the device, the kernel itself splits
+    // the packets that still need it.
     for (const int command : {ETHTOOL_STSO, ETHTOOL_SGRO, ETHTOOL_SRXCSUM, ETHTOOL_STXCSUM}) {
         set_ethtool(interface, static_cast<std::uint32_t>(command), 0);
     }

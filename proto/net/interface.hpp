@@ -10,44 +10,43 @@
 
 namespace hapnet::net {
 
-// The network interfaces of the network namespace of the calling process. Each function throws
-// std::system_error naming the interface; those that change something need CAP_NET_ADMIN there.
+// Functions on the interfaces of the network namespace of the calling process. Each throws
+// std::system_error naming the interface. Those that change something need CAP_NET_ADMIN there.
 
-/// The longest IP packet that it sends, in bytes.
+/// Returns the length of the longest IP packet that the interface sends, in bytes.
 [[nodiscard]] std::size_t mtu_of(const std::string& interface);
 
 [[nodiscard]] bool has_interface(const std::string& interface);
 
-/// Makes two interfaces that are joined: what is sent on one arrives at the other. The second one
-/// is made in the network namespace of another process, with this hardware address; empty: the
-/// kernel makes one up.
+/// Creates two joined interfaces: a packet sent on one arrives at the other. The second one is in
+/// the network namespace of another process, and has the hardware address `machine_there`. If that
+/// is empty, the kernel chooses one.
 void make_veth(const std::string& here, const std::string& there, pid_t process_there,
                std::span<const std::byte> machine_there = {});
 
 void set_up(const std::string& interface);
 
-/// "10.0.0.1" or "fd00::1", and the bits of its network. Usable at once: no other host is asked
-/// whether it has the address.
+/// Adds an address, "10.0.0.1" or "fd00::1", with the prefix length of its network. The address is
+/// usable at once: there is no duplicate address detection.
 void add_address(const std::string& interface, const std::string& address, std::uint8_t bits);
 
-/// Sends what is for a group of IPv4 (multicast), or for all hosts (255.255.255.255), by this
-/// interface.
+/// Routes IPv4 multicast and broadcast (255.255.255.255) to this interface.
 void add_group_routes(const std::string& interface);
 
-/// Sends what is for no known network to this router.
+/// Routes packets to all other networks to this router.
 void add_default_route(const std::string& interface, const std::string& router);
 
 /// Makes the interface ignore the addresses and routes that IPv6 routers announce, as far as the
 /// system allows it. Throws nothing.
 void ignore_router_advertisements(const std::string& interface);
 
-/// Work that the kernel leaves to a device, off: checksums, and frames that are cut up or put
-/// together there. Then what leaves is what would be on a wire. Throws nothing: features that the
-/// interface does not have, or not let go of, stay.
+/// Switches off the work that the kernel leaves to the device: checksums, and the splitting and
+/// joining of packets. Outgoing frames are then as they would be on a wire. Throws nothing: missing
+/// features, and those that the interface does not give up, are ignored.
 void switch_off_offloads(const std::string& interface);
 
-/// Returns the receive offloads by which the interface joins arriving packets, as one number; 0: it
-/// joins none.
+/// Returns the receive offloads by which the interface joins arriving packets, encoded as one
+/// number. 0: it joins none.
 [[nodiscard]] std::uint32_t receive_offloads_of(const std::string& interface);
 void set_receive_offloads(const std::string& interface, std::uint32_t offloads);
 

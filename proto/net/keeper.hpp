@@ -12,8 +12,8 @@
 
 namespace hapnet::net {
 
-/// Passes orders to save the last seconds to the thread that writes files, so that a client never
-/// waits for a disk. Clients choose only names within the folder; existing files are never
+/// Passes orders to save recent events to the thread that writes files, so that a client never
+/// waits for a disk. Clients choose only names within the folder. Existing files are never
 /// overwritten, and the number of files is limited.
 class Keeper {
 public:
@@ -25,16 +25,16 @@ public:
         std::string path;
         base::TimePoint from;
     };
-    /// Orders a file with what was held since `from`; gives its path. The file appears, whole, soon
-    /// after. The error says why there will be none. `file` has no slash.
+    /// Orders a file with the events since `from` and returns its path. The complete file appears
+    /// soon after. The error says why there will be no file. `file` must not contain a slash.
     [[nodiscard]] base::Result<std::string> order(const std::string& file, base::TimePoint from);
 
     /// Returns the waiting order, for the thread that writes.
     [[nodiscard]] std::optional<Order> take();
-    /// Writes the file, of mode 0600. Where it refuses, trouble() tells why.
+    /// Writes the file with mode 0600. If this fails, trouble() returns the reason.
     void save(const std::string& path, std::string_view bytes);
 
-    /// Returns the reason why a file could not be saved, once.
+    /// Returns the reason why a file could not be saved. Each reason is returned once.
     [[nodiscard]] std::optional<std::string> trouble();
 
 private:

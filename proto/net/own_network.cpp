@@ -36,7 +36,7 @@ bool write_to(const char* path, std::string_view text)
     return is_written;
 }
 
-/// Errors of the system whose text has named the cure.
+/// System errors whose text already includes the cure.
 class NetworkErrors : public std::error_category {
 public:
     [[nodiscard]] const char* name() const noexcept override { return "own network"; }
@@ -53,8 +53,8 @@ constexpr std::string_view user_namespace_cure =
     "kernel.apparmor_restrict_unprivileged_userns=0; in a container, allow unshare (with Docker: "
     "--security-opt seccomp=unconfined)";
 
-/// A socket that tells of the sockets in the network of that process (sock_diag(7)); -1 when it
-/// cannot be had. The calling thread is in that network for a moment.
+/// Returns a socket that lists the sockets in the network of that process (sock_diag(7)); -1 if
+/// there is none. The calling thread is briefly in that network.
 int sockets_of(pid_t process)
 {
     const int own = open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC);
@@ -69,8 +69,8 @@ int sockets_of(pid_t process)
     return sockets;
 }
 
-/// True if there is a socket of this family and protocol in one of the states, each a bit. False,
-/// too, where the kernel cannot tell.
+/// True if there is a socket of this family and protocol in one of the states, which are bits. Also
+/// false if the kernel cannot tell.
 bool has_socket(int sockets, int family, int protocol, std::uint32_t states)
 {
     struct Request {
@@ -144,8 +144,8 @@ bool has_listener(pid_t process)
 {
     const int sockets = sockets_of(process);
     if (sockets < 0) return false;
-    // The states of listening sockets. UDP has no state of its own for a socket that is bound to no
-    // other end.
+    // The states of listening sockets. In UDP, a bound socket that is not connected has the state
+    // TCP_CLOSE.
     constexpr std::uint32_t listens = 1U << 10U; // TCP_LISTEN
     constexpr std::uint32_t is_bound = 1U << 7U; // TCP_CLOSE
     const bool has = has_socket(sockets, AF_INET, IPPROTO_TCP, listens) ||

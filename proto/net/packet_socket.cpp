@@ -35,7 +35,7 @@ void set_packet_option(int descriptor, int level, int name, int value)
     setsockopt(descriptor, level, name, &value, sizeof value);
 }
 
-/// The kernel's data on a frame besides its bytes.
+/// The data about a frame from the kernel, without its bytes.
 struct FrameLabel {
     std::optional<base::Duration> stamp; // CLOCK_REALTIME
     tpacket_auxdata auxiliary{};
@@ -75,7 +75,8 @@ struct PacketSocket::Inbox {
     Inbox()
     {
         for (std::size_t i = 0; i < batch_max; ++i) {
-            // Leaves room before the frame, into which a VLAN tag moves the addresses.
+            // Leaves room before the frame, to which the addresses are moved when a VLAN tag is
+            // inserted.
             vectors[i] = {.iov_base = room(i) + tag_bytes, .iov_len = frame_bytes_max - tag_bytes};
             msghdr& header = headers[i].msg_hdr;
             header.msg_iov = &vectors[i];
@@ -89,7 +90,7 @@ struct PacketSocket::Inbox {
 
     [[nodiscard]] std::byte* room(std::size_t i) { return bytes.get() + i * frame_bytes_max; }
 
-    /// The kernel takes the first VLAN tag out of the frame and tells it apart.
+    /// The kernel removes the first VLAN tag from the frame and passes it separately.
     [[nodiscard]] std::span<std::byte> whole(std::size_t i, std::size_t length,
                                              const tpacket_auxdata& auxiliary)
     {
@@ -142,7 +143,7 @@ PacketSocket::PacketSocket(const std::string& interface)
         if (setsockopt(descriptor_, SOL_SOCKET, forced, &wanted, sizeof wanted) == 0) continue;
         set_packet_option(descriptor_, SOL_SOCKET, plain, wanted);
     }
-    // Frames to other machines, too: a bridge is for those.
+    // Also receives frames to other machines, because a bridge forwards those.
     packet_mreq everything{};
     everything.mr_ifindex = static_cast<int>(index);
     everything.mr_type = PACKET_MR_PROMISC;
@@ -211,8 +212,7 @@ PacketSocket::send_batch(std::span<const std::span<const std::byte>> frames)
     return {inbox.outcomes.data(), frames.size()};
 }
 
-/// Takes those that the interface is to blame for. The kernel says so once, to whichever call comes
-/// first.
+/// Notes errors of the interface. The kernel reports each only once, to the first call after it.
 void PacketSocket::note_error(int error)
 {
     const bool is_of_interface = error == ENETDOWN || error == ENXIO || error == ENODEV;
@@ -223,7 +223,7 @@ std::uint64_t PacketSocket::overflowed() const
 {
     tpacket_stats counted{};
     socklen_t length = sizeof counted;
-    // Reading sets the kernel's count back to zero.
+    // Reading resets the kernel's count.
     if (getsockopt(descriptor_, SOL_PACKET, PACKET_STATISTICS, &counted, &length) == 0) {
         inbox_->overflowed += counted.tp_drops;
     }

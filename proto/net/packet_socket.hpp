@@ -13,15 +13,15 @@
 
 namespace hapnet::net {
 
-/// A frame as the kernel handed it over, from its Ethernet header on, with its VLAN tag.
+/// A frame from the kernel, starting with its Ethernet header and including its VLAN tag.
 struct ReceivedFrame {
     std::span<std::byte> bytes;  // valid until the next receive()
     base::TimePoint at;          // the kernel's receive stamp
-    bool lacks_checksum = false; // the sender's kernel left it to hardware that does not exist
+    bool lacks_checksum = false; // the sending kernel left it to hardware that does not exist
 };
 
-/// All frames that arrive at a network interface, and a way to send frames from it: AF_PACKET.
-/// Frames that the machine itself sends there, through this socket or not, are not received.
+/// Receives all frames that arrive at a network interface, and sends frames from it (AF_PACKET).
+/// Frames that this machine sends there, through this socket or not, are not received.
 class PacketSocket {
 public:
     static constexpr std::size_t batch_max = 64;
@@ -32,8 +32,8 @@ public:
     PacketSocket(const PacketSocket&) = delete;
     PacketSocket& operator=(const PacketSocket&) = delete;
 
-    /// A batch of waiting frames, oldest first; empty when there are none. Never blocks, never
-    /// allocates. Stamps never lie in the future.
+    /// Returns a batch of waiting frames, oldest first; empty if there are none. Never blocks,
+    /// never allocates. Stamps are never in the future.
     [[nodiscard]] std::span<const ReceivedFrame> receive();
 
     /// Sends up to batch_max frames. Returns the outcome of each, in their order; it is valid until
@@ -41,10 +41,10 @@ public:
     std::span<const SendOutcome> send_batch(std::span<const std::span<const std::byte>> frames);
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
-    /// The errno by which the interface has failed, such as ENETDOWN when it was set down or
-    /// deleted; 0 while it works.
+    /// Returns the errno by which the interface has failed, such as ENETDOWN after it was set down
+    /// or deleted; 0 while it works.
     [[nodiscard]] int error() const { return error_; }
-    /// Frames that the kernel dropped because this socket's buffer was full.
+    /// Returns the number of frames that the kernel dropped because this socket's buffer was full.
     [[nodiscard]] std::uint64_t overflowed() const;
 
 private:

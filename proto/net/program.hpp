@@ -28,16 +28,17 @@ inline constexpr int exit_failed = 1;      // the run failed
 inline constexpr int exit_usage = 2;       // bad usage or bad input
 inline constexpr int exit_environment = 3; // the system refused a request
 
-/// A text to print on stdout instead of running: --help, --version.
+/// A text that is printed on stdout instead of running: --help, --version.
 struct Answer {
     std::string text;
 };
 
-/// A command line as it was understood; the error says what is wrong with it and how to mend it.
+/// A parsed command line. The error says what is wrong with it and how to correct it.
 template <typename Options>
 using CommandLine = base::Result<std::variant<Options, Answer>>;
 
-/// Returns the answer for `said`, a text to print or an error, when the program does not run.
+/// Converts the result of a parser for the case that the program does not run: a text to print, or
+/// an error.
 [[nodiscard]] inline tl::expected<Answer, base::Error>
 answer_of(base::Result<std::optional<std::string>> said)
 {
@@ -45,42 +46,44 @@ answer_of(base::Result<std::optional<std::string>> said)
     return Answer{**std::move(said)};
 }
 
-/// Writes text for a person to stderr. A closed or full stderr is not an error: it must not end a
+/// Writes text for people to stderr. A closed or full stderr is not an error, as it must not end a
 /// session.
 inline void tell(const std::string& text)
 {
     std::ignore = std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// Writes a line with the name of the program to stderr: "hapnet-peer: ...".
+/// Writes a line to stderr that begins with the name of the program: "hapnet-peer: ...".
 inline void say(std::string_view program, std::string_view text)
 {
     tell(fmt::format("{}: {}\n", program, base::visible_lines(text)));
 }
 
-/// Text for a person, on stdout. Names in it may come from a file or another program.
+/// Prints text for people on stdout. Control characters are made visible, because names in the text
+/// may come from a file or another program.
 inline void print(std::string_view text) { fmt::print("{}", base::visible_lines(text)); }
 
-/// Throws std::system_error when what was printed could not be written: a full disk, say.
+/// Throws std::system_error if the output could not be written, because of a full disk for example.
 inline void require_stdout()
 {
     if (std::fflush(stdout) != 0)
         throw std::system_error{errno, std::generic_category(), "cannot write the output"};
-    // An earlier attempt failed, and its reason is gone.
+    // The reason is unknown, because an earlier write failed.
     if (std::ferror(stdout) != 0)
         throw std::system_error{EIO, std::generic_category(), "cannot write the output"};
 }
 
-/// Prints a text that a reader waits for, without buffering. Throws std::system_error as above.
+/// Prints a text without buffering, for a reader that waits for it. Throws std::system_error like
+/// require_stdout().
 inline void print_now(std::string_view text)
 {
     fmt::print("{}", text);
     require_stdout();
 }
 
-/// The life of every program: prints what is to be printed, runs, and turns each kind of trouble
-/// into a message and an exit code. `run` takes the Options and gives a base::Result<int>: its own
-/// exit code, or what was bad input.
+/// Runs a program from its command line to its exit code: prints the text of an Answer, or calls
+/// `run`, and turns each kind of error into a message and an exit code. `run` takes the Options and
+/// returns a base::Result<int>: its own exit code, or an error for bad input.
 template <typename Options, typename Run>
 [[nodiscard]] int run_program(std::string_view program, const CommandLine<Options>& line, Run run)
 {

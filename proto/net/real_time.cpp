@@ -12,8 +12,8 @@ namespace hapnet::net {
 
 namespace {
 
-/// Locking memory that may yet grow makes later allocations fail once RLIMIT_MEMLOCK is
-/// reached, so ask only where there is no limit.
+/// If memory that can still grow is locked, later allocations fail once RLIMIT_MEMLOCK is reached.
+/// So memory is locked only if there is no limit.
 bool lock_memory(Locking locking)
 {
     rlimit limit{};

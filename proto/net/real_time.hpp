@@ -13,7 +13,8 @@ namespace hapnet::net {
 struct RealTime {
     bool fifo = false;          // SCHED_FIFO
     bool locked_memory = false; // mlockall
-    /// "" when all was granted, otherwise one sentence: what is missing and how to allow it.
+    /// Returns "" if everything was granted. Otherwise returns one sentence that says what is
+    /// missing and how to allow it.
     [[nodiscard]] std::string shortage() const;
 };
 constexpr auto fields_of(base::Tag<RealTime>)
@@ -25,15 +26,16 @@ constexpr auto fields_of(base::Tag<RealTime>)
                      "Whether it granted locked memory."));
 }
 
-/// The memory that is locked: all reserved memory at once, or each page from its first use on. The
-/// latter is for a process that reserves far more than it usually needs.
+/// The pages that are locked: all reserved memory at once, or each page when it is first used. The
+/// latter is for a process that reserves far more memory than it usually needs.
 enum class Locking : std::uint8_t { at_once, as_used };
 
-/// Asks for SCHED_FIFO at `priority` and the finest timer slack for the calling thread, and for
-/// locked memory for the process. Never fails: says what it got.
+/// Requests SCHED_FIFO at `priority` and the finest timer slack for the calling thread, and locked
+/// memory for the process. Never fails; the result says what was granted.
 [[nodiscard]] RealTime request_real_time(int priority, Locking locking = Locking::at_once);
 
-/// The calling thread is one of many again: before long work that nothing waits for.
+/// Returns the calling thread to normal scheduling. Call this before long work that nothing waits
+/// for.
 void leave_real_time();
 
 } // namespace hapnet::net

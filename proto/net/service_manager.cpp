@@ -17,7 +17,7 @@ namespace hapnet::net {
 
 namespace {
 
-/// The value of a variable, which is taken out of the environment.
+/// Returns the value of a variable and removes it from the environment.
 std::string taken(const char* name)
 {
     const char* const value = std::getenv(name);
@@ -26,8 +26,8 @@ std::string taken(const char* name)
     return text;
 }
 
-/// Returns the time within which the manager expects a sign of life of this process; 0: it expects
-/// none.
+/// Returns the time within which the manager expects a keep-alive message of this process; 0 if it
+/// expects none.
 base::Duration patience_of(const std::string& microseconds, const std::string& process)
 {
     if (!process.empty() && process != std::to_string(getpid())) return {};
@@ -42,7 +42,7 @@ ServiceManager::ServiceManager()
 {
     const std::string place = taken("NOTIFY_SOCKET");
     const base::Duration patience = patience_of(taken("WATCHDOG_USEC"), taken("WATCHDOG_PID"));
-    // A path, or a name after '@' that is in no folder. What else there may be is not for us.
+    // The address is a path, or an abstract name after '@'. Other kinds are not supported.
     const bool is_known = place.starts_with('/') || (place.starts_with('@') && place.size() > 1);
     if (!is_known || place.size() >= sizeof manager_.sun_path) return;
     manager_.sun_family = AF_UNIX;

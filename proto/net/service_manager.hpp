@@ -16,8 +16,8 @@ namespace hapnet::net {
 /// no manager. Never blocks: a message that the manager has no room for is lost.
 class ServiceManager {
 public:
-    /// Construct it before any thread. It removes the variables that it reads from the environment,
-    /// so that programs that this one starts do not speak for it.
+    /// Construct it before any thread is started. It removes the variables that it reads from the
+    /// environment, so that programs started by this one do not report on its behalf.
     ServiceManager();
     ~ServiceManager();
     ServiceManager(const ServiceManager&) = delete;
@@ -26,10 +26,10 @@ public:
     void tell_ready() const { tell("READY=1"); }
     /// Tells the manager that the program stops. The manager expects no more signs of life.
     void tell_stopping() const { tell("STOPPING=1"); }
-    /// The loop that must not stand still has moved. Sends a sign of life when one is due, which is
-    /// twice as often as the manager asks for; call it as often as you like.
+    /// Reports that the critical loop has made progress. Sends a keep-alive message when one is
+    /// due, which is twice in the interval that the manager asks for. It may be called at any rate.
     void tell_alive(base::TimePoint now);
-    /// The time of the next sign of life; nullopt: the manager expects none.
+    /// Returns the time of the next keep-alive message; nullopt if the manager expects none.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_; }
 
 private:

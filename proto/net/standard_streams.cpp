@@ -13,7 +13,7 @@ void fill_standard_streams()
     // The order matters: open() takes the lowest number that is free.
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(descriptor, F_GETFD) >= 0) continue;
-        // The wrong way round, so that what is asked to print says that it cannot.
+        // It is opened for the wrong direction, so that a program that prints gets an error.
         const int opened = open(
             "/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY); // NOLINT(*-cloexec)
         if (opened >= 0 && opened != descriptor) close(opened);

@@ -45,7 +45,8 @@ int signals_as_descriptor()
     return descriptor;
 }
 
-/// The number that the lifeline variable says, which is taken out of the environment; -1: none.
+/// Returns the number in the lifeline variable and removes the variable from the environment; -1 if
+/// there is none.
 int given_lifeline()
 {
     const char* const value = std::getenv(lifeline_variable);
@@ -61,14 +62,15 @@ bool has_hung_up(int descriptor)
     return poll(&polled, 1, 0) > 0 && (polled.revents & POLLHUP) != 0;
 }
 
-/// Makes the kernel send SIGTERM from now on when the lifeline hangs up. Its descriptor, which is
-/// returned, stays open for as long as the process lives, and no command that this one runs
-/// inherits it. -1: there is none.
+/// Makes the kernel send SIGTERM from now on when the lifeline hangs up. Returns its descriptor,
+/// which stays open as long as the process lives, and which no command of this process inherits.
+/// -1: there is none.
 int hold_lifeline()
 {
     const int given = given_lifeline();
     if (given < 0) return -1;
-    // A file description of its own: it has one owner, and others may hold the same lifeline.
+    // Opens a new file description, because it has only one owner, and other processes may hold the
+    // same lifeline.
     int own =
         open(fmt::format("/proc/self/fd/{}", given).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (own < 0) own = fcntl(given, F_DUPFD_CLOEXEC, 0);
@@ -127,7 +129,7 @@ struct StopSignal::State {
             } else {
                 if (!is_requested()) {
                     number.store(static_cast<int>(info.ssi_signo), std::memory_order_relaxed);
-                    // The kernel's own is of the terminal.
+                    // A signal from the kernel comes from the terminal.
                     is_of_terminal.store(info.ssi_code == SI_KERNEL, std::memory_order_relaxed);
                 }
                 request();
@@ -153,8 +155,8 @@ struct StopSignal::State {
 
 namespace {
 
-/// The standard descriptors that are terminals; -1, which poll() passes over, for others. One that
-/// has hung up already says EIO.
+/// Returns the standard descriptors that are terminals. Others are -1, which poll() ignores. A
+/// terminal that has already hung up returns EIO.
 std::array<int, 3> terminals()
 {
     std::array<int, 3> found{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
@@ -214,10 +216,11 @@ bool StopSignal::reload_requested() const
 
 void StopSignal::enforce(base::Duration patience, int code) const
 {
-    // The terminals are found before the thread begins: a terminal may go away at any time.
+    // The terminals are found before the thread begins, because a terminal may disappear at any
+    // time.
     start_detached([state = state_, patience, code, found = terminals()] {
         const auto [in, out, error] = found;
-        // A terminal is asked for nothing: poll() tells of a hangup regardless.
+        // No events of a terminal are requested, because poll() always reports a hangup.
         std::array<pollfd, 5> polled{{{state->wake, POLLIN, 0},
                                       {state->signals, POLLIN, 0},
                                       {in, 0, 0},

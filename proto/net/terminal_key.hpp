@@ -4,8 +4,8 @@
 
 namespace hapnet::net {
 
-/// The Enter key of the terminal at stdin, for a program that asks nothing else of it. There is
-/// none where stdin is a file or a pipe, and while the program is in the background.
+/// The Enter key of the terminal at stdin, for a program that reads nothing else from it. There is
+/// no key if stdin is a file or a pipe, or while the program is in the background.
 class TerminalKey {
 public:
     explicit TerminalKey(int descriptor = 0);

@@ -7,23 +7,23 @@
 
 namespace hapnet::net {
 
-/// The line at the bottom of a terminal that is written again and again, among other text. It
-/// writes nothing itself, but returns the bytes to be written.
+/// A status line at the bottom of a terminal that is rewritten among other text. The class writes
+/// nothing itself, but returns the bytes to write.
 class TerminalLine {
 public:
-    /// `descriptor`, which stays the caller's, is asked whether it is a terminal, and how wide.
+    /// The caller keeps `descriptor`. It is used to find out if there is a terminal, and its width.
     explicit TerminalLine(int descriptor);
 
     [[nodiscard]] bool is_terminal() const { return is_terminal_; }
 
-    /// Shows `text` instead of the line that stands there, cut to the width of the terminal: a line
-    /// that is folded cannot be written over.
+    /// Returns the bytes that replace the status line by `text`. The text is cut to the width of
+    /// the terminal, because a wrapped line cannot be overwritten.
     [[nodiscard]] std::string shown(std::string_view text);
 
-    /// Returns the bytes to write before other text: they remove the line, if there is one.
+    /// Returns the bytes that remove the status line, to be written before other text.
     [[nodiscard]] std::string room();
 
-    /// Leaves the line as it is, if there is one, and begins a new one.
+    /// Returns the bytes that leave the status line, if there is one, and begin a new line.
     [[nodiscard]] std::string left();
 
 private:

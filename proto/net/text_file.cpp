@@ -27,7 +27,8 @@ tl::unexpected<base::Error> cannot_read(const std::string& path, const char* why
     return base::fail(fmt::format("cannot read {}: {}", path, why));
 }
 
-/// Reads the text behind a descriptor, and closes it. A descriptor of -1 gives the error in errno.
+/// Reads the text behind a descriptor, and closes it. If the descriptor is -1, returns the error in
+/// errno.
 base::Result<std::string> text_behind(int descriptor, const std::string& path, bool only_regular)
 {
     if (descriptor < 0) return cannot_read(path, std::strerror(errno));
@@ -82,7 +83,7 @@ base::Result<std::string> Folder::text_of(const std::string& name) const
     const bool names_folder =
         name.size() > path_.size() + 1 && name.starts_with(path_) && name[path_.size()] == '/';
     const std::string below = names_folder ? name.substr(path_.size() + 1) : name;
-    // A pipe without a writer must not hold up the thread that opens it.
+    // A pipe without a writer must not block the thread that opens it.
     open_how how{};
     how.flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
     how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;

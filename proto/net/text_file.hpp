@@ -8,21 +8,23 @@
 
 namespace hapnet::net {
 
-/// The whole text of a file of at most 256 MiB; the error names it and says why it cannot be read.
+/// Returns the content of a file of at most 256 MiB. The error names the file and says why it
+/// cannot be read.
 [[nodiscard]] base::Result<std::string> text_of_file(const std::string& path);
 
-/// Opens files by names from another program, only below one folder. A name that leads out of it,
-/// through "..", from the root or by a symbolic link, opens no file and reveals nothing about it.
+/// Opens files whose names come from another program, only below one folder. A name that leads out
+/// of the folder (by "..", as an absolute path or by a symbolic link) opens no file and reveals
+/// nothing about it.
 class Folder {
 public:
-    /// Throws std::system_error when it cannot be opened.
+    /// Throws std::system_error if the folder cannot be opened.
     explicit Folder(const std::string& path);
     ~Folder();
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
 
-    /// The whole text of a regular file below it, of at most 256 MiB. The name may also begin with
-    /// the path of the folder.
+    /// Returns the content of a regular file below the folder, of at most 256 MiB. The name may
+    /// also begin with the path of the folder.
     [[nodiscard]] base::Result<std::string> text_of(const std::string& name) const;
 
 private:

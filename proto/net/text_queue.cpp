@@ -18,7 +18,7 @@ namespace hapnet::net {
 struct TextQueue::State {
     explicit State(int to) : descriptor{to} {}
 
-    /// The writing thread: until the queue has gone and nothing is left.
+    /// Runs on the writing thread, until the queue has been destroyed and nothing is left.
     void work()
     {
         std::unique_lock lock{mutex};
@@ -42,7 +42,7 @@ struct TextQueue::State {
         }
     }
 
-    /// The error number, if any.
+    /// Returns the error number; 0 if there was no error.
     [[nodiscard]] int write_all(std::string_view text) const
     {
         while (!text.empty()) {

@@ -9,16 +9,16 @@
 
 namespace hapnet::net {
 
-/// Text for a terminal, a pipe or a log, written by a separate thread: the program never waits for
-/// the reader. Bounded: a text without room is dropped whole, and counted. Text that is unwritten
-/// when the process ends is lost.
+/// Writes text to a terminal, a pipe or a log on a separate thread, so that the program never waits
+/// for the reader. The queue is bounded: a text that does not fit is dropped whole and counted.
+/// Text that is unwritten when the process ends is lost.
 class TextQueue {
 public:
     static constexpr std::size_t bytes_max = std::size_t{256} << 10;
 
-    /// Writes to `descriptor`, which stays the caller's.
+    /// Writes to `descriptor`, which the caller keeps.
     explicit TextQueue(int descriptor);
-    /// Waits for nothing: see is_done().
+    /// Does not wait for unwritten text: see is_done().
     ~TextQueue();
     TextQueue(const TextQueue&) = delete;
     TextQueue& operator=(const TextQueue&) = delete;
@@ -28,11 +28,12 @@ public:
 
     /// True if all text was written, dropped or refused.
     [[nodiscard]] bool is_done() const;
-    /// Number of bytes written so far. It grows as long as the reader takes them.
+    /// Returns the number of bytes written so far. It grows as long as the reader reads.
     [[nodiscard]] std::uint64_t written() const;
-    /// Texts that were dropped: for want of room, or because the descriptor refused.
+    /// Returns the number of texts that were dropped, for lack of space or because the descriptor
+    /// refused them.
     [[nodiscard]] std::uint64_t lost() const;
-    /// The error number of the first write that was refused; 0: no write was refused.
+    /// Returns the error number of the first write that was refused; 0 if none was.
     [[nodiscard]] int error() const;
 
 private:

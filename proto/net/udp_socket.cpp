@@ -35,7 +35,7 @@ void set_option(int descriptor, int level, int name, int value)
     setsockopt(descriptor, level, name, &value, sizeof value);
 }
 
-/// Up to `bytes`; SO_RCVBUF alone stops at net.core.rmem_max.
+/// Requests a buffer of up to `bytes`. SO_RCVBUF alone is limited by net.core.rmem_max.
 void set_receive_buffer(int descriptor, int bytes)
 {
     const bool is_forced =
@@ -43,7 +43,7 @@ void set_receive_buffer(int descriptor, int bytes)
     if (!is_forced) set_option(descriptor, SOL_SOCKET, SO_RCVBUF, bytes);
 }
 
-/// The kernel's data on a message besides its bytes.
+/// The data about a message from the kernel, without its bytes.
 struct Label {
     std::optional<base::Duration> stamp; // CLOCK_REALTIME
     std::optional<std::uint32_t> overflowed;
@@ -91,7 +91,7 @@ void read_control(const cmsghdr& control, Label& label)
     }
 }
 
-/// Reads the control data of a message. CMSG_NXTHDR would cost a call for each of several items.
+/// Reads the control data of a message. CMSG_NXTHDR would cost a call for each item.
 Label label_of(const msghdr& header)
 {
     Label label;
@@ -105,8 +105,8 @@ Label label_of(const msghdr& header)
     return label;
 }
 
-/// Asks the kernel for the marks of arriving datagrams. Returns the marks of datagrams that are
-/// sent without any. This also fixes a default of IPv6 that routers could change later.
+/// Asks the kernel for the marks of arriving datagrams. Returns the marks of outgoing datagrams
+/// without marks of their own. For IPv6, this also fixes a default that routers could change later.
 base::IpMarks ask_for_marks(int descriptor, int family)
 {
     set_option(descriptor, IPPROTO_IP, IP_RECVTOS, 1); // also on an IPv6 socket that receives IPv4
@@ -131,8 +131,8 @@ struct UdpSocket::Inbox {
     static constexpr std::size_t control_bytes = 256;
     /// UDP_MAX_SEGMENTS of Linux 6.9 and later; it was 64 before.
     static constexpr std::size_t segments_max = 128;
-    /// About as many datagrams are taken at a time when messages hold many: a third of a
-    /// millisecond of a relay's work.
+    /// The number of datagrams to take at a time when messages contain many. Their processing takes
+    /// a relay a third of a millisecond.
     static constexpr std::size_t datagrams_wanted = 512;
 
     explicit Inbox(Load load)
@@ -150,7 +150,7 @@ struct UdpSocket::Inbox {
         received.reserve(load == Load::bulk ? batch_max * segments_max : batch_max);
     }
 
-    /// The kernel overwrites the lengths of the messages that it fills.
+    /// Resets the lengths of the messages, which the kernel overwrites.
     void make_ready(std::size_t count)
     {
         for (std::size_t i = 0; i < count; ++i) {
@@ -159,7 +159,7 @@ struct UdpSocket::Inbox {
         }
     }
 
-    /// Cuts a message into its datagrams.
+    /// Splits a message into its datagrams.
     void put(std::size_t index, const Label& label, base::TimePoint at)
     {
         const std::span<const std::byte> bytes{payload.get() + index * payload_bytes_max,
@@ -181,7 +181,7 @@ struct UdpSocket::Inbox {
         overflowed_last = total;
     }
 
-    // The memory is not filled with zeros: most of it is never used.
+    // The memory is not zeroed, because most of it is never used.
     std::unique_ptr<std::byte[]> payload = // NOLINT(*-avoid-c-arrays)
         std::make_unique_for_overwrite<std::byte[]>(batch_max * payload_bytes_max);
     std::array<iovec, batch_max> vectors{};
@@ -202,7 +202,8 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load) : UdpSocket{local, load, 
 
 UdpSocket UdpSocket::beside(UdpSocket& first, Load load)
 {
-    // Set after the first bind, so that any other program that holds or wants the place is refused.
+    // The option is set after the first bind, so that any other program that uses the address, or
+    // tries to, is refused.
     set_option(first.descriptor_, SOL_SOCKET, SO_REUSEPORT, 1);
     return UdpSocket{first.local(), load, Place::shared};
 }
@@ -214,14 +215,14 @@ UdpSocket::UdpSocket(const Endpoint& local, Load load, Place place)
     if (descriptor_ < 0) throw std::system_error{errno, std::generic_category(), "socket"};
     set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, 1);
     set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, 1);
-    // 4 MB is a second of a busy link while we are not running.
+    // 4 MB is a second of a busy link while this process does not run.
     set_option(descriptor_, SOL_SOCKET, SO_RCVBUF, 4 << 20);
     set_option(descriptor_, SOL_SOCKET, SO_SNDBUF, 4 << 20);
     base::IpMarks usual;
     if (load == Load::bulk) {
-        // The buffer is not larger, because datagrams that wait here when a flood ends make later
-        // ones late. Merged, 4 MB (the kernel doubles it) hold some 60 000 small datagrams, which
-        // take a relay 60 ms; with 8 MB it was late for 160 ms after a flood.
+        // The buffer is not larger, because datagrams that wait here at the end of a flood delay
+        // later ones. Merged, 4 MB (the kernel doubles it) hold some 60 000 small datagrams, which
+        // take a relay 60 ms. With 8 MB, it was late for 160 ms after a flood.
         set_receive_buffer(descriptor_, 4 << 20);
         set_option(descriptor_, SOL_UDP, UDP_GRO, 1);
         usual = ask_for_marks(descriptor_, local.family());

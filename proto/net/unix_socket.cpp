@@ -16,8 +16,8 @@ namespace hapnet::net {
 
 namespace {
 
-/// Explains why a path cannot become a control socket, with a cure that speaks of programs and
-/// paths, not of ports.
+/// Explains why a path cannot become a control socket. The advice is about programs and paths, not
+/// about ports.
 class PathCategory : public std::error_category {
 public:
     [[nodiscard]] const char* name() const noexcept override { return "control socket"; }
@@ -60,7 +60,7 @@ sockaddr_un address_of(const std::string& path)
     return address;
 }
 
-/// The type that the system's functions want.
+/// Returns the address in the type that the system's functions require.
 const sockaddr* generic(const sockaddr_un& address)
 {
     return reinterpret_cast<const sockaddr*>(&address);
@@ -140,7 +140,7 @@ UnixListener::UnixListener(std::string path) : path_{std::move(path)}, socket_{n
     constexpr int waiting_max = 64;
     const auto address = address_of(path_);
     clear_the_place(path_, address);
-    // No other user may open the socket at any moment, so the file is made with its mode.
+    // The file is created with its final mode, so that no other user can ever open the socket.
     const auto mask = umask(S_IRWXG | S_IRWXO | S_IXUSR);
     const int bound = bind(descriptor(), generic(address), sizeof address);
     const int error = errno;
@@ -154,7 +154,7 @@ UnixListener::UnixListener(std::string path) : path_{std::move(path)}, socket_{n
 UnixListener::~UnixListener()
 {
     struct stat found {};
-    // Its number may be another file's by now.
+    // Another file may have this inode number by now.
     const bool is_ours =
         lstat(path_.c_str(), &found) == 0 && S_ISSOCK(found.st_mode) && found.st_ino == file_;
     if (is_ours) unlink(path_.c_str());

@@ -11,20 +11,20 @@
 
 namespace hapnet::net {
 
-/// The result of an attempt to move bytes.
+/// The result of an attempt to transfer bytes.
 struct Transfer {
     enum class State : std::uint8_t {
         moved,
-        later, // nothing can be moved now
+        later, // nothing can be transferred now
         ended, // the other side sends no more
         gone,  // the connection is broken
     };
 
     State state = State::later;
-    std::size_t bytes = 0; // number of bytes, if moved
+    std::size_t bytes = 0; // number of bytes that were transferred
 };
 
-/// One end of a connection over a Unix socket. Moves bytes; decides nothing.
+/// One end of a connection over a Unix socket. Transfers bytes; makes no decisions.
 class UnixStream {
 public:
     /// Connects to the socket at `path`. Throws std::system_error naming it.
@@ -38,7 +38,7 @@ public:
     UnixStream(const UnixStream&) = delete;
     UnixStream& operator=(const UnixStream&) = delete;
 
-    /// read() and write() never block.
+    /// Reads what has arrived. read() and write() never block.
     Transfer read(std::span<char> into);
     Transfer write(std::string_view bytes);
 
@@ -51,11 +51,11 @@ private:
 /// A Unix socket in the file system that only its owner may open (mode 0600). Never blocks.
 class UnixListener {
 public:
-    /// Takes the place of a socket on which no program answers any more, and of nothing else.
-    /// Throws std::system_error naming the path: EADDRINUSE if a program answers there or the file
-    /// is not a socket.
+    /// Creates the socket. Replaces an existing socket on which no program answers any more, and
+    /// nothing else. Throws std::system_error naming the path: EADDRINUSE if a program answers
+    /// there or the file is not a socket.
     explicit UnixListener(std::string path);
-    /// Removes the socket, if it is still this one.
+    /// Removes the socket file, unless another one has replaced it.
     ~UnixListener();
     UnixListener(const UnixListener&) = delete;
     UnixListener& operator=(const UnixListener&) = delete;

@@ -10,12 +10,12 @@
 
 namespace hapnet::net {
 
-/// The most descriptors that wait_readable() takes.
+/// The largest number of descriptors that wait_readable() accepts.
 inline constexpr std::size_t descriptors_max = 32;
 
-/// Sleeps until one of the descriptors is readable or `deadline` has come, whichever is first;
-/// nullopt waits for the descriptors alone. A signal may end it early. Returns whether one is
-/// readable.
+/// Sleeps until one of the descriptors is readable or `deadline` has come, whichever is first.
+/// nullopt: waits for the descriptors only. A signal may end the wait early. Returns true if a
+/// descriptor is readable.
 bool wait_readable(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
 
 } // namespace hapnet::net

@@ -11,14 +11,14 @@ namespace hapnet::net {
 
 /// The operations that a descriptor is ready for.
 struct Ready {
-    std::uint64_t key = 0; // key that the descriptor was added with
+    std::uint64_t key = 0; // the key given to add()
     bool is_readable = false;
     bool is_writable = false;
-    bool is_gone = false; // the other side has closed the connection both ways
+    bool is_gone = false; // the other side has closed both directions of the connection
 };
 
-/// Many descriptors as one: its own descriptor is readable while any of them is ready for what is
-/// wanted of it.
+/// Many descriptors combined into one, which is readable while any of them is ready for an
+/// operation of interest.
 class WaitSet {
 public:
     struct Interest {
@@ -34,11 +34,11 @@ public:
     WaitSet(const WaitSet&) = delete;
     WaitSet& operator=(const WaitSet&) = delete;
 
-    /// A descriptor leaves the set when it is closed.
+    /// Adds a descriptor. It leaves the set when it is closed.
     void add(int descriptor, std::uint64_t key, Interest interest);
     void change(int descriptor, std::uint64_t key, Interest interest);
 
-    /// Returns descriptors that are ready now, at least some of them; valid until the next call.
+    /// Returns descriptors that are ready now: at least some of them, valid until the next call.
     /// Never blocks.
     [[nodiscard]] std::span<const Ready> ready();
 

@@ -12,7 +12,7 @@
 
 namespace hapnet::net {
 
-/// Wakes a thread that waits for descriptors, from any other, without a lock.
+/// Wakes a thread that waits for descriptors. Any other thread can signal it, without a lock.
 class WakeEvent {
 public:
     /// Throws std::system_error.
@@ -30,7 +30,7 @@ public:
     void signal() const noexcept
     {
         const std::uint64_t one = 1;
-        // It fails only after 2^64 signals that were not cleared.
+        // The write fails only after 2^64 signals that were not cleared.
         std::ignore = ::write(descriptor_, &one, sizeof one);
     }
     void clear() const noexcept
@@ -39,7 +39,8 @@ public:
         std::ignore = ::read(descriptor_, &signals, sizeof signals);
     }
 
-    /// Sleeps until it is signalled, and clears it. It may wake earlier: ask what there is to do.
+    /// Sleeps until it is signalled, and clears it. It may return early, so check if there is
+    /// something to do.
     void wait() const noexcept
     {
         pollfd waiting{.fd = descriptor_, .events = POLLIN, .revents = 0};

@@ -6,8 +6,8 @@
 
 namespace hapnet::net {
 
-/// Brings the way of a datagram through the kernel back into the processor's caches: a send right
-/// after a sleep took 9 us, and 3.5 us with this shortly before it (loopback, 2 virtual CPUs, Linux
+/// Brings the kernel's code for sending a datagram back into the processor's caches. A send right
+/// after a sleep took 9 us, and 3.5 us if this ran shortly before (loopback, 2 virtual CPUs, Linux
 /// 6.18). A separate socket sends itself one datagram over the loopback device. A filter drops the
 /// datagram, so that no other program sees it.
 class WarmUp {
@@ -17,7 +17,7 @@ public:
     WarmUp(const WarmUp&) = delete;
     WarmUp& operator=(const WarmUp&) = delete;
 
-    /// Takes about as long as a send. Does nothing where there is no loopback device.
+    /// Takes about as long as a send. Does nothing if there is no loopback device.
     void run() const;
 
 private:

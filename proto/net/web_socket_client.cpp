@@ -35,7 +35,7 @@ struct WebSocketClient::State {
     bool has_message = false;
     bool is_open = false;
 
-    /// Runs what is under way until `done` or until there is nothing more, but no longer than this.
+    /// Runs pending operations until `done` is set or none is left, but no longer than `most`.
     void run_until(const bool& done, base::Duration most)
     {
         const base::TimePoint end = monotonic_now() + most;
@@ -46,8 +46,8 @@ struct WebSocketClient::State {
         }
     }
 
-    /// Waits for one operation that `start` begins. Where its time runs out, or it fails, the
-    /// connection closes. Gives the cause.
+    /// Waits for one operation that `start` begins. The connection is closed if the operation times
+    /// out or fails. Returns the cause.
     template <typename Start>
     beast::error_code finish(Start start, base::Duration most)
     {
@@ -75,7 +75,7 @@ struct WebSocketClient::State {
         is_open = false;
     }
 
-    /// There is always one read under way.
+    /// Begins a read. One read is always pending.
     void read()
     {
         is_reading = true;

@@ -14,9 +14,9 @@
 
 namespace hapnet::net {
 
-/// A connection to a WebSocket on this machine (RFC 6455), for texts. One thread uses it. No call
-/// waits longer than it is told; a peer that breaks the protocol, or a message beyond the limit,
-/// closes it for good.
+/// A connection to a WebSocket on this machine (RFC 6455), for texts. Only one thread may use it.
+/// No call waits longer than its limit. The connection is closed for good if the peer breaks the
+/// protocol or sends a message beyond the limit.
 class WebSocketClient {
 public:
     struct Limits {
@@ -24,7 +24,8 @@ public:
         std::size_t message_bytes_max = 65536;
     };
 
-    /// Connects to 127.0.0.1:port and shakes hands for "/". The error names the port and the cause.
+    /// Connects to 127.0.0.1:port and does the handshake for "/". The error names the port and the
+    /// cause.
     [[nodiscard]] static base::Result<WebSocketClient> connect(std::uint16_t port,
                                                                const Limits& limits);
     ~WebSocketClient();
@@ -33,10 +34,10 @@ public:
     WebSocketClient(const WebSocketClient&) = delete;
     WebSocketClient& operator=(const WebSocketClient&) = delete;
 
-    /// Sends a text. Returns false when it did not go out within `most`. The connection is then
-    /// closed, because half a message may have gone.
+    /// Sends a text. Returns false if it was not sent completely within `most`. The connection is
+    /// then closed, because half a message may have been sent.
     [[nodiscard]] bool send(std::string_view text, base::Duration most);
-    /// The next message, if it has come or comes in time.
+    /// Returns the next message; nullopt if none arrives within `most`.
     [[nodiscard]] std::optional<std::string> receive(base::Duration most);
     [[nodiscard]] bool is_open() const;
 

@@ -8,9 +8,9 @@
 
 namespace hapnet::output {
 
-/// The keys of what a program prints, and what they mean, as a table of Markdown. A dot leads into
-/// an object. Keys without words of their own, such as quantiles, stand in the row of the object
-/// that they are in; an object all of whose keys have words has a table of its own.
+/// Returns a Markdown table of the keys in a program's output, with their meanings. A dot separates
+/// the keys of nested objects. Keys without a description, such as quantiles, are listed in the row
+/// of their object. An object whose keys all have descriptions gets a table of its own.
 [[nodiscard]] std::string key_table(const base::FieldTable& fields);
 
 template <base::Described T>

@@ -22,7 +22,7 @@ using Shape = base::ValueKind::Shape;
 
 constexpr double ns_per_s = 1e9;
 
-/// True if Prometheus takes it as the name of a metric or a label.
+/// True if Prometheus accepts the text as the name of a metric or a label.
 bool is_name(std::string_view text)
 {
     const auto may_stand = [](char c) {
@@ -40,7 +40,7 @@ std::string one_line(std::string text)
     return text;
 }
 
-/// A text in quotes, as Prometheus reads it.
+/// Returns a text in quotes, in the syntax of Prometheus.
 std::string quoted_label(std::string_view text)
 {
     std::string quoted = "\"";
@@ -51,7 +51,8 @@ std::string quoted_label(std::string_view text)
     return quoted + '"';
 }
 
-/// Calls visit(name, number) for a number, and for each one below an object, with its keys.
+/// Calls visit(name, number) for a number, or for each number below an object, whose name then
+/// includes the keys.
 template <typename Visit>
 void for_each_number(const Json& json, const std::string& name, const Visit& visit)
 {

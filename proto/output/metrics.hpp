@@ -11,13 +11,13 @@
 
 namespace hapnet::output {
 
-/// A value of a metric, and what it is of.
+/// A value of a metric, with its labels.
 struct Sample {
     std::map<std::string, std::string> labels;
     double value = 0.0;
 };
 
-/// A metric of Prometheus.
+/// A Prometheus metric.
 struct Metric {
     std::string name;
     std::string help;
@@ -25,7 +25,7 @@ struct Metric {
     std::vector<Sample> samples;
 };
 
-/// Metrics in the order in which they were first told.
+/// A list of metrics, in the order in which they were first added.
 class Metrics {
 public:
     /// Adds the metrics in the JSON of a struct, by the description of its fields. Names of times
@@ -34,11 +34,11 @@ public:
     /// the field.
     void add(const base::FieldTable& fields, const nlohmann::ordered_json& json,
              const std::map<std::string, std::string>& labels = {});
-    /// Adds the metrics of another program from its json(). Entries that are no metrics are
-    /// ignored.
+    /// Adds the metrics of another program from the result of its json(). Entries that are not
+    /// metrics are ignored.
     void add(const nlohmann::ordered_json& told);
 
-    /// A list, which add() takes.
+    /// Returns the metrics as a list, which add() accepts.
     [[nodiscard]] nlohmann::ordered_json json() const;
     /// Returns the metrics as text in the format of Prometheus (version 0.0.4).
     [[nodiscard]] std::string text() const;

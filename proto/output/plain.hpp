@@ -7,7 +7,7 @@
 
 namespace hapnet::output {
 
-/// Words about a field without marks of Markdown: `a` and [a](b) become a.
+/// Returns a description without Markdown syntax: `a` and [a](b) become a.
 [[nodiscard]] std::string plain(std::string_view words);
 
 } // namespace hapnet::output

@@ -16,16 +16,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Shape = base::ValueKind::Shape;
 
-/// Collects the structs that a struct has in it.
+/// Collects the definitions of the structs that a struct contains.
 class Definitions {
 public:
-    /// The keys of a struct, without a head.
+    /// Returns the schema of a struct's keys, without a header.
     Json object_of(const base::FieldTable& fields)
     {
         Json properties = Json::object();
         Json required = Json::array();
         for (const base::FieldRow& row : fields.rows) {
-            // A field that is left out when it has no value is never null.
+            // The value of a field that is left out if it has no value is never null.
             const bool is_optional = row.telling.is_left_out_if_none;
             Json property = value_of(is_optional ? row.kind->plain() : *row.kind);
             if (!row.about.empty()) property["description"] = plain(row.about);
@@ -49,7 +49,7 @@ private:
             if (!kind.is_signed) whole["minimum"] = 0;
             return whole;
         }
-        // A number that is not finite is null.
+        // A number that is not finite becomes null.
         case Shape::number: return {{"type", Json::array({"number", "null"})}};
         case Shape::time: return {{"type", "number"}};
         case Shape::text: return {{"type", "string"}};

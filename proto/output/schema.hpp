@@ -10,9 +10,10 @@
 
 namespace hapnet::output {
 
-/// The JSON Schema (draft 2020-12) of what base::json_of() makes of a struct: every key with its
-/// kind, its range, and the words about it. Keys that are always there are required. Structs in the
-/// struct stand once each under $defs, by their names. `title`: what the document is.
+/// Returns the JSON Schema (draft 2020-12) of the objects that base::json_of() makes from a struct:
+/// every key with its type, its range and its description. Keys that are always present are
+/// required. Each nested struct is listed once under $defs, by its name. `title` says what the
+/// document is.
 [[nodiscard]] nlohmann::ordered_json schema_of(const base::FieldTable& fields,
                                                std::string_view title);
 

@@ -22,7 +22,7 @@ std::string_view unit_of(std::string_view key)
     return key.ends_with("_s") ? " (s)" : "";
 }
 
-/// Adds "3 lost" behind what is there.
+/// Appends a count such as "3 lost" to the text.
 void add(std::string& text, std::uint64_t count, std::string_view words)
 {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, words);

@@ -10,9 +10,9 @@
 
 namespace hapnet::output {
 
-// The text that people read about a struct: the fields with words for them, see base::Told.
+// Text for people about a struct. It contains the fields that have words for them, see base::Told.
 
-/// The counts in a row: "100 received, 99 delivered, 1 lost".
+/// Returns the counts as a list: "100 received, 99 delivered, 1 lost".
 [[nodiscard]] std::string told(const base::FieldTable& fields, const void* value);
 
 template <base::Described T>
@@ -27,8 +27,8 @@ struct ToldFigure {
     nlohmann::ordered_json value;
 };
 
-/// Each figure in the JSON of a struct. Figures of an object have the object's words and their own
-/// keys.
+/// Returns a row for each figure in the JSON of a struct. A figure inside an object is named by the
+/// words of the object and its own key.
 [[nodiscard]] std::vector<ToldFigure> told_figures(const base::FieldTable& fields,
                                                    const nlohmann::ordered_json& json);
 

@@ -7,7 +7,7 @@
 
 namespace hapnet::page {
 
-/// Bytes as text of RFC 4648, section 4.
+/// Returns bytes in the Base 64 encoding of RFC 4648, section 4.
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 } // namespace hapnet::page

@@ -10,20 +10,21 @@
 namespace hapnet::page {
 
 // The content of a page, as data that web/page/report turns into elements. A text is a string, or a
-// list of strings and of such pieces as bold(); a line break in it stays one. Nothing is markup.
+// list of strings and of pieces such as bold(). Line breaks in it are kept. Nothing is interpreted
+// as markup.
 
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json bold(std::string_view words);
 
 [[nodiscard]] Json paragraph(Json text, std::string_view style = "");
-/// Words whose lines and spaces stay as they are.
+/// A text whose line breaks and spaces are kept.
 [[nodiscard]] Json preformatted(std::string_view words);
-/// A text in a frame that says how something went: "met", "missed" or "" are its styles.
+/// A framed text about a result. Its styles are "met", "missed" and "".
 [[nodiscard]] Json banner(std::string_view style, Json text, std::vector<Json> list = {});
-/// Blocks beside each other; `size` is "", "small" or "tiny".
+/// Blocks side by side; `size` is "", "small" or "tiny".
 [[nodiscard]] Json panels(std::string_view size, Json blocks);
-/// A cell of a table, in the look of a class of report.css.
+/// A cell of a table. `style` is a class of report.css.
 struct Cell {
     Json text;
     std::string style{};

@@ -13,7 +13,8 @@ namespace hapnet::page {
 
 namespace {
 
-/// Rounds to seven digits. A record has fewer, and the text is half as long as that of a double.
+/// Rounds to seven digits. A record has fewer, and the text is half as long as with all digits of a
+/// double.
 double short_value(double value)
 {
     if (value == 0.0) return 0.0;
@@ -31,7 +32,7 @@ Json json_of(const Axis& axis)
     return json;
 }
 
-/// An axis along which groups, columns or rows stand.
+/// Returns an axis of categories: groups, columns or rows.
 Json json_of(const Axis& axis, const std::vector<std::string>& categories)
 {
     Json json = json_of(axis);
@@ -80,7 +81,7 @@ Json json_of(const Bar& bar, std::size_t at)
     return json;
 }
 
-/// The series in the order in which they stand in the groups; a group may lack some of them.
+/// Returns the names of the series in the order of the groups. A group may lack some of them.
 std::vector<std::string> series_in(const Bars& groups)
 {
     std::vector<std::string> names;
@@ -94,7 +95,7 @@ std::vector<std::string> series_in(const Bars& groups)
     return names;
 }
 
-/// A series has a colour of its own where all of its bars do.
+/// A series has a colour if all of its bars have the same one.
 Json series_of(const Bars& groups, const std::string& name)
 {
     Json bars = Json::array();
@@ -208,7 +209,8 @@ std::string quoted(const Json& text)
     return out + '"';
 }
 
-/// The letters and digits of the text, those outside ASCII left out, with one "_" between words.
+/// Returns the letters and digits of the text, with one "_" between words. Characters outside ASCII
+/// are left out.
 std::string key_of(std::string_view text)
 {
     std::string key;
@@ -224,7 +226,7 @@ std::string key_of(std::string_view text)
     return key;
 }
 
-/// Returns the ending of a column head for an axis in that unit: "_ms"; "" without one.
+/// Returns the suffix of a column name for the axis's unit, such as "_ms"; "" without a unit.
 std::string unit_key_of(const Json& axis)
 {
     const auto unit = axis.value("unit", std::string{});
@@ -242,7 +244,7 @@ std::string head_of(const Json& axis, std::string_view otherwise)
     return (key.empty() ? std::string{otherwise} : key) + unit_key_of(axis);
 }
 
-/// "value_mm,low_mm,high_mm"
+/// Returns column names such as "value_mm,low_mm,high_mm".
 std::string value_heads(const Json& axis)
 {
     return fmt::format("value{0},low{0},high{0}", unit_key_of(axis));

@@ -15,15 +15,16 @@
 
 namespace hapnet::page {
 
-// Figures as data; web/page/figures draws them. Colours are names of palette.css: "left".
+// Figures as data, which web/page/figures draws. Colours are names from palette.css, such as
+// "left".
 
-/// The range of some values; empty until one is included.
+/// The range of some values. It is empty until a value is included.
 struct Range {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool is_empty() const { return !(low <= high); }
-    /// Widens the range to a value; one that is not finite changes nothing.
+    /// Extends the range to a value. A value that is not finite changes nothing.
     void include(double value);
 };
 
@@ -34,7 +35,7 @@ struct Axis {
     std::string label;
     std::string unit{};
     Scale scale = Scale::linear;
-    Range range{}; // range that the axis spans besides the values
+    Range range{}; // range that the axis covers in addition to the values
 };
 
 struct Point {
@@ -42,32 +43,33 @@ struct Point {
     double y = 0.0;
 };
 
-/// The range of a curve at x.
+/// The range of a curve's values at x.
 struct BandPoint {
     double x = 0.0;
     Range y;
 };
 
-/// Where a curve crosses the height y: a line across from `low` to `high`, with ends.
+/// The place where a curve crosses the height y. It is drawn as a horizontal line with ends, from
+/// `low` to `high`.
 struct Crossing {
     double y = 0.0;
     Range x;
 };
 
-/// A curve, in the order of x; values that are not finite are left out.
+/// A curve with ascending x. Values that are not finite are left out.
 struct Curve {
-    std::string name; // name in the legend; empty: not in the legend
+    std::string name; // name in the legend; empty: none
     std::string_view colour;
     std::vector<Point> points{};
-    std::vector<Point> scatter{}; // dots beside the curve, which belong to it
+    std::vector<Point> scatter{}; // dots beside the curve that belong to it
     std::vector<BandPoint> band{};
     std::optional<Crossing> crossing{};
     double width = 1.2; // line width, pixels; 0: only dots
     bool is_dashed = false;
-    bool shows_points = false; // a dot at each point
+    bool shows_points = false; // true: a dot at each point
 };
 
-/// A value with which curves are compared: a dashed line across the figure.
+/// A value to compare curves with. It is drawn as a dashed line across the figure.
 struct Level {
     double y = 0.0;
     std::string_view name;
@@ -76,17 +78,17 @@ struct Level {
 struct Curves {
     std::vector<Curve> curves;
     std::vector<Level> levels{};
-    std::vector<double> moments{}; // values of x, each a dashed vertical line
+    std::vector<double> moments{}; // values of x with a dashed vertical line
 };
 
-/// A bar from zero to a value that is not negative, which its text says in words.
+/// A bar from zero to a value that is not negative. Its text gives the value.
 struct Bar {
-    std::string series; // name of the bars at the same place in each group
+    std::string series; // name of the bars with the same place in each group
     double value = 0.0;
     std::string text;
     std::string_view colour;
-    bool is_outlined = false;        // for values that others measured
-    bool is_open = false;            // the true value is larger: an arrow as the end
+    bool is_outlined = false;        // for values from other sources
+    bool is_open = false;            // the true value is larger: the bar ends in an arrow
     bool is_missed = false;          // the text is red
     std::optional<Range> interval{}; // interval in which the value lies
     std::string tip{};               // tooltip
@@ -98,7 +100,7 @@ struct BarGroup {
 };
 using Bars = std::vector<BarGroup>;
 
-/// A field of a heat map. The symbol says the same as the colour.
+/// A cell of a heat map. The symbol has the same meaning as the colour.
 struct HeatCell {
     std::size_t column = 0;
     std::size_t row = 0; // 0: lowest
@@ -108,7 +110,7 @@ struct HeatCell {
     std::string tip;
 };
 
-/// One row of a figure of dots: a value on a line, with its interval and what is accepted.
+/// A row of a dot plot: a value, its interval, and the accepted range.
 struct DotRow {
     std::string name;
     std::string_view colour;
@@ -123,11 +125,12 @@ using Dots = std::vector<DotRow>;
 
 struct HeatMap {
     std::vector<std::string> columns; // labels below the columns
-    std::vector<std::string> rows;    // labels beside the rows, from the lowest up
+    std::vector<std::string> rows;    // labels beside the rows, from the bottom up
     std::vector<HeatCell> cells;
 };
 
-/// Width and height for which a figure is made, in pixels; a page may draw it wider or narrower.
+/// The width and height that a figure is designed for, in pixels. A page may draw it wider or
+/// narrower.
 struct Size {
     double width = 900.0;
     double height = 280.0;
@@ -144,18 +147,19 @@ struct Figure {
     std::vector<std::string> sources{}; // files with the figure's numbers, as paths from the page
 };
 
-/// The text with a hyphen for each character that an id may not have.
+/// Returns the text with a hyphen in place of each character that an id must not contain.
 [[nodiscard]] std::string plain_id(std::string text);
 
-/// Returns about `count_max` points of a curve at most: the lowest and the highest of each stretch,
+/// Reduces a curve to about `count_max` points at most: the lowest and the highest of each section,
 /// so that no peak is lost.
 [[nodiscard]] std::vector<Point> thinned(std::span<const Point> points, std::size_t count_max);
 
-/// The figure as pages carry it: `{id, kind, title, x, y, series, ...}`. Points to seven digits.
+/// Returns the figure as pages contain it: `{id, kind, title, x, y, series, ...}`. Points have
+/// seven digits.
 [[nodiscard]] Json json_of(const Figure& figure);
 
-/// The numbers of a figure that json_of() returned, as CSV whose heads name what the axes have and
-/// its unit: "curve,time_s,delay_ms", "group,bar,value_mm,low_mm,high_mm" or
+/// Returns the numbers of a figure that json_of() returned, as CSV. The header names the quantities
+/// of the axes with their units: "curve,time_s,delay_ms", "group,bar,value_mm,low_mm,high_mm" or
 /// "row,value_mm,low_mm,high_mm".
 [[nodiscard]] std::string csv_of(const Json& figure);
 

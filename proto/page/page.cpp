@@ -29,7 +29,7 @@ std::string escaped(std::string_view text)
     return out;
 }
 
-/// An element of JSON; nothing in it closes that.
+/// Returns an element with JSON. The JSON contains nothing that closes the element.
 std::string json_element(std::string_view id, const Json& json)
 {
     std::string text;
@@ -59,7 +59,7 @@ Json data_of(const Page& page)
     return data;
 }
 
-/// The modules, and the style sheets by themselves.
+/// The modules, and separately the style sheets.
 struct Carried {
     Json plain = Json::object();
     Json packed = Json::object();

@@ -28,7 +28,7 @@ static_assert(used_bytes<TickRow>() <= row_bytes);
 static_assert(used_bytes<SessionRow>() <= row_bytes);
 static_assert(used_bytes<BodyRow>() == body_row_bytes);
 
-/// Calls visit(name, field) for the fields of a row that files of this layout have.
+/// Calls visit(name, field) for each field of a row that this layout includes.
 template <typename R>
 void for_each_field_of(const Layout& layout, R& row, const auto& visit)
 {

@@ -13,17 +13,17 @@
 
 namespace hapnet::record {
 
-/// A row of a tick or a session takes this many bytes.
+/// The length of a row of a tick or a session.
 inline constexpr std::size_t row_bytes = 216;
-/// A row of a body takes this many, since version 5.
+/// The length of a row of a body, since version 5.
 inline constexpr std::size_t body_row_bytes = 117;
-/// Bytes of a message row before the message.
+/// The number of bytes in a message row before the message.
 inline constexpr std::size_t message_head_bytes = 21;
 
-/// The layout of the rows of a file: all rows of one kind have one length.
+/// The layout of the rows of a file. All rows of one kind have the same length.
 struct Layout {
-    /// Version 2 has no `from` in its messages, and less in its session rows; version 4 has rows of
-    /// bodies besides, and is otherwise version 3; version 5 has their owner in them.
+    /// Version 2 has no `from` in message rows and fewer fields in session rows. Version 4 is
+    /// version 3 with rows of bodies. Version 5 adds their owner to these rows.
     static constexpr int version_min = 2;
     static constexpr int version_max = 5;
 
@@ -45,31 +45,32 @@ struct Layout {
     {
         return version >= 5 ? body_row_bytes : body_row_bytes - sizeof(BodyRow::owner);
     }
-    /// True if its rows have the field of this name, which is a field of some row in the newest
-    /// version.
+    /// True if the rows of this layout have the field of this name, which must be a field of some
+    /// row in the newest version.
     [[nodiscard]] bool has_field(std::string_view name) const;
     [[nodiscard]] static constexpr Layout of_version_2()
     {
         return {.version = 2, .message_row_bytes = row_bytes};
     }
     [[nodiscard]] static constexpr Layout of_version_4() { return {.version = 4}; }
-    /// The longest message that has room.
+    /// Returns the length of the longest message that fits.
     [[nodiscard]] constexpr std::size_t message_bytes_max() const
     {
         return message_row_bytes - message_head_bytes + (version == 2 ? 2 : 0);
     }
-    /// The length of a row that begins with this byte; nullopt: there is no such kind.
+    /// Returns the length of a row that begins with this byte; nullopt if there is no such kind.
     [[nodiscard]] std::optional<std::size_t> bytes_of(std::byte kind) const;
 };
 
 using RowBytes = std::vector<std::byte>;
 
-/// Encodes a row: one byte for its kind, its fields (fields.hpp) little-endian and unaligned, then
-/// zeros. The layout must have such rows, and a message be within its bounds; times beyond 36 years
-/// are written, but decode() refuses them.
+/// Encodes a row as one byte for its kind, its fields (fields.hpp) in little-endian order without
+/// alignment, and zeros up to the row's length. The layout must have such rows, and a message must
+/// fit. Times beyond 36 years are written, but decode() refuses them.
 [[nodiscard]] RowBytes encode(const Row& row, const Layout& layout = {});
 
-/// Refuses whatever encode() would not write: accepted bytes re-encode to themselves.
+/// Decodes a row. Refuses bytes that encode() would not write, so accepted bytes encode to
+/// themselves.
 [[nodiscard]] base::Result<Row> decode(std::span<const std::byte> bytes, const Layout& layout = {});
 
 } // namespace hapnet::record

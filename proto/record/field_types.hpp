@@ -7,8 +7,9 @@
 
 namespace hapnet::record {
 
-/// The encoding of a field of type T in a row: its type and unit as the header names them, its
-/// bytes, and both ways between. take() is false when the bytes are not ones that put() writes.
+/// The encoding of a field of type T in a row: the type and unit in the header, the number of
+/// bytes, and the functions put() and take(). take() returns false if put() does not write such
+/// bytes.
 template <typename T>
 struct FieldType;
 
@@ -90,8 +91,8 @@ struct FieldType<Phase> {
     }
 };
 
-/// No clock and no session of ours reads more than 36 years; below, sums of several times cannot
-/// overflow in a reader of a damaged record.
+/// The largest time in a record, about 36 years, which no clock and no session of this project
+/// exceeds. It ensures that sums of several times cannot overflow in a reader of a damaged record.
 inline constexpr base::Duration time_max{std::int64_t{1} << 60};
 
 template <>
@@ -123,8 +124,8 @@ struct FieldType<base::TimePoint> {
     }
 };
 
-/// Three doubles of one physical kind. Values that are not finite pass: a record is the witness
-/// of a run that went wrong, too.
+/// Three doubles with the same physical unit. Values that are not finite are accepted, because a
+/// record must also document a run that went wrong.
 template <typename V>
 struct VectorFieldType {
     static constexpr std::string_view type = "f64[3]";
@@ -190,7 +191,7 @@ struct FieldType<double> {
     }
 };
 
-/// A length, followed by that number of bytes.
+/// A length, followed by as many bytes.
 template <>
 struct FieldType<std::vector<std::byte>> {
     static constexpr std::string_view type = "u16 n, u8[n]", unit = "";

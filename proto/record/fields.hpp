@@ -11,7 +11,8 @@
 namespace hapnet::record {
 
 // The fields of every row, in the order of their bytes. Encoding, decoding, the schema in the
-// header and the CSV all follow from it. docs/formats/record.md says what each means.
+// header and the CSV are derived from these lists. docs/formats/record.md defines the meaning of
+// each field.
 
 constexpr auto fields_of(base::Tag<TickRow>)
 {
@@ -106,8 +107,9 @@ constexpr void for_each_field(R& row, auto&& visit)
     base::for_each_field([&](const auto& field, auto& value) { visit(field.key, value); }, row);
 }
 
-/// The byte that a row starts with; its name in the header is that of its fields. 0 is no kind, so
-/// that a block of zeros, as a file system may leave behind a crash, is not a row.
+/// The first byte of a row, which tells its kind. The header calls the kind by the name in its
+/// field description. 0 is not a kind, so that a block of zeros, which a file system may leave
+/// after a crash, is not a row.
 template <typename R>
 inline constexpr std::uint8_t kind_code = 0;
 template <>

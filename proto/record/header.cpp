@@ -30,7 +30,7 @@ nlohmann::json schema_of(const Layout& layout)
     return {{"kind", unsigned{kind_code<R>}}, {"fields", std::move(fields)}};
 }
 
-/// All of the header that is the same in every record of this layout.
+/// Returns the part of the header that is the same in every record of this layout.
 nlohmann::json description_of(const Layout& layout)
 {
     nlohmann::json description{
@@ -50,8 +50,8 @@ nlohmann::json description_of(const Layout& layout)
     return description;
 }
 
-/// Returns the part of a schema that decides how rows are read. Units are for people, and their
-/// words may change.
+/// Returns the part of a schema that determines how rows are read. Units are for people, and their
+/// text may change.
 nlohmann::json without_units(nlohmann::json schema)
 {
     for (auto& row : schema) {
@@ -73,7 +73,7 @@ std::string header_line(const nlohmann::json& config, const Layout& layout)
         if (ours.contains(key)) header[key] = ours[key];
     }
     header["config"] = config;
-    // Text from the command line may be no UTF-8: better a replaced letter than no record.
+    // Text from the command line may not be UTF-8. A replaced character is better than no record.
     return header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -11,16 +11,16 @@
 
 namespace hapnet::record {
 
-/// The first line of a record, without its end of line: JSON that names the format, describes
-/// every field of every row (type, offset, unit) and carries `config`, the configuration of the
-/// peer that writes. The layout is of the newest version.
+/// Returns the first line of a record, without its line end. It is JSON that names the format,
+/// describes every field of every row (type, offset, unit) and contains `config`, the configuration
+/// of the peer that writes the record. The layout is of the newest version.
 [[nodiscard]] std::string header_line(const nlohmann::json& config, const Layout& layout = {});
 
 struct Header {
     nlohmann::json config;
     Layout layout;
 };
-/// Refuses a header of another format or layout.
+/// Parses a header. Refuses another format and another layout.
 [[nodiscard]] base::Result<Header> parse_header(std::string_view line);
 
 } // namespace hapnet::record

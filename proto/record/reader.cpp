@@ -15,10 +15,11 @@ namespace hapnet::record {
 
 namespace {
 
-// Far above any header; keeps a large file of another kind from being read as one line.
+// A limit far above the length of any header, so that a large file of another kind is not read as
+// one line.
 constexpr std::size_t header_bytes_max = 1U << 20U;
 
-/// The header without its end of line; empty when there is no such line.
+/// Returns the header without its line end; empty if there is no such line.
 std::string read_header_line(std::istream& file)
 {
     std::string line;
@@ -63,7 +64,7 @@ base::Result<Record> read(const std::string& path)
     for (std::size_t number = 1;; ++number) {
         char kind{};
         if (!file.get(kind)) break;
-        // One byte is enough to report a kind that does not exist.
+        // One byte is enough to report an unknown kind.
         bytes.assign(layout.bytes_of(std::byte(kind)).value_or(1), std::byte(kind));
         const auto rest = static_cast<std::streamsize>(bytes.size()) - 1;
         file.read(reinterpret_cast<char*>(bytes.data() + 1), rest);

@@ -12,21 +12,22 @@
 
 namespace hapnet::record {
 
-/// A whole record in memory; the rows of each kind in the order in which they were written.
+/// A whole record in memory. The rows of each kind are in the order in which they were written.
 struct Record {
     nlohmann::json config;
     std::vector<TickRow> ticks;
     std::vector<MessageRow> messages;
     std::vector<SessionRow> sessions;
-    /// Ascending in their ticks.
+    /// Sorted by their ticks.
     std::vector<BodyRow> bodies{};
-    /// The number of `ticks` that were written before each of the `sessions`.
+    /// For each of the `sessions`, the number of `ticks` that were written before it.
     std::vector<std::size_t> ticks_before_session;
-    /// The file ends inside a row: the writer was killed. Nothing before that row is harmed.
+    /// True if the file ends inside a row, because the writer was killed. All rows before it are
+    /// complete.
     bool cut_off = false;
 };
 
-/// Reads a record; an error names the file and what was expected in it.
+/// Reads a record. An error names the file and says what was expected in it.
 [[nodiscard]] base::Result<Record> read(const std::string& path);
 
 } // namespace hapnet::record

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t buffer_bytes = 16384;
 
-/// Empties a regular file once it is locked: two peers that were given one name must not spoil each
-/// other's record. Gives the error.
+/// Empties a regular file after locking it, because two peers with the same file name must not
+/// spoil each other's record. Returns the error.
 int take_alone(int file)
 {
     struct stat found {};
@@ -66,7 +66,7 @@ void Writer::flush()
     if (const auto error = try_flush()) refuse(error, "write");
 }
 
-/// Forgets what finds no room.
+/// Discards rows that cannot be written.
 std::error_code Writer::try_flush() noexcept
 {
     const auto written = disk::write_all(file_.number(), buffer_);

@@ -15,25 +15,27 @@
 
 namespace hapnet::record {
 
-/// Writes the record of one session to a file. Buffered: what was written since the last flush()
-/// is lost when the process is killed. Allocates and blocks, so it has no place on the servo
-/// thread. All of it throws std::system_error, naming the file, when the file refuses.
+/// Writes the record of one session to a file. Output is buffered: rows written since the last
+/// flush() are lost if the process is killed. Do not use it on the servo thread, because it
+/// allocates and blocks. Each function throws std::system_error naming the file if the file cannot
+/// be written.
 class Writer {
 public:
-    /// Creates the file, or empties it, and writes the header at once. A message of a row must have
-    /// room in the layout. disk::open_to_write() says which files are refused.
+    /// Creates or empties the file, and writes the header at once. The layout must have room for
+    /// the message of each row. disk::open_to_write() says which files are refused.
     Writer(std::string path, const nlohmann::json& config, const Layout& layout = {});
     Writer(Writer&&) noexcept = default;
     Writer& operator=(Writer&&) = delete;
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
-    /// Writes what is buffered, if the file still takes it.
+    /// Writes the buffered rows, if the file still accepts them.
     ~Writer();
 
     void write(const Row& row);
     void flush();
 
-    /// Rows that the file has. After it has refused it ends with the last of them.
+    /// Returns the number of rows in the file. After a failed write, the file ends with the last of
+    /// them.
     [[nodiscard]] std::uint64_t rows() const { return rows_; }
 
 private:

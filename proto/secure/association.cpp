@@ -70,7 +70,7 @@ std::uint32_t Association::session_with(std::uint32_t other_run) const
                       : config_.session_of(other_run, config_.run);
 }
 
-/// An index that names nothing else of this side.
+/// Returns an index that is not used for anything else on this side.
 KeyIndex Association::fresh_index()
 {
     for (;;) {
@@ -111,7 +111,7 @@ Association::Counts& Association::Counts::operator+=(const Counts& other)
     return *this;
 }
 
-// --- what comes ---
+// --- received messages ---
 
 bool Association::is_named_by(Bytes datagram) const
 {
@@ -172,8 +172,8 @@ std::optional<Association::Received> Association::on_message(std::span<std::byte
         epoch = &*current_;
         answered_.reset(); // the answer has arrived
     }
-    // A state shows where the other side is now; until there is one under this key, other messages
-    // do, as a peer that was started again elsewhere says hello first.
+    // A state shows the present place of the other side. Until a state arrives under this key,
+    // other messages show it, because a peer that is restarted at another place first sends hellos.
     epoch->has_opened_state = epoch->has_opened_state || opened.is_state;
     const bool is_newest = opened.outcome == Opener::Outcome::opened_newest &&
                            (opened.is_state || !epoch->has_opened_state);
@@ -223,8 +223,9 @@ void Association::on_initiation(Bytes datagram, const Place& from, base::TimePoi
     if (!initiations_.add(waiting, drawn())) ++counts_.unread;
 }
 
-/// Returns the place to which a handshake message from `from` is answered. Its sender is not proved
-/// yet, so a side that may not move is answered at its configured place, if it has one.
+/// Returns the place to which the answer to a handshake message from `from` is sent. The sender is
+/// not authenticated yet. So if the other side may not roam, the answer goes to its configured
+/// place, if it has one.
 Place Association::answer_place(const Place& from) const
 {
     return config_.may_roam || !place_ ? from : *place_;
@@ -260,13 +261,13 @@ void Association::on_cookie_reply(Bytes datagram, base::TimePoint now)
     initiating_->has_new_cookie = true;
 }
 
-// --- what is due ---
+// --- due work ---
 
 void Association::tick(Moment moment)
 {
     const bool may_respond = responding_ || !initiations_.is_empty();
     const bool may_initiate = initiating_ && initiating_->has_work();
-    // Takes turns, so that a flood of one kind does not stop the other.
+    // Initiating and responding take turns, so that a flood of one kind does not block the other.
     if (may_initiate && (!may_respond || is_turn_to_initiate_)) {
         step_initiation(moment);
         is_turn_to_initiate_ = false;
@@ -287,15 +288,16 @@ bool Association::needs_key(base::TimePoint now) const
     return now - current_->made >= lasts || now - last_opened_ >= silence;
 }
 
-/// True if an answer of this side may still be confirmed by the other side. Waited for once: who
-/// plays recorded initiations would else keep this side from ever beginning itself.
+/// True if an answer of this side may still be confirmed by the other side. This side waits for it
+/// only once, because otherwise someone who replays recorded initiations could prevent it from ever
+/// initiating.
 bool Association::waits_for_confirmation(base::TimePoint now) const
 {
     return unconfirmed_since_ && now - *unconfirmed_since_ < fresh_after;
 }
 
-/// The date of the next initiation. It grows within a run, whatever is done to the clock: the other
-/// side takes nothing older than what this run has sent.
+/// Returns the date of the next initiation. It increases within a run even if the clock is set
+/// back, because the other side refuses dates older than those of this run's earlier initiations.
 std::int64_t Association::date(Moment moment)
 {
     if (own_date_ < std::numeric_limits<std::int64_t>::max()) ++own_date_;
@@ -409,16 +411,16 @@ void Association::step_response(base::TimePoint now)
     responding_->noise.write(payload);
 }
 
-/// True if another run than the one that is heard begins, and too soon after the last change: two
-/// programs with one key would push each other out for ever. A run that has fallen silent may be
-/// followed at once.
+/// True if another run than the one that is heard begins too soon after the last change. Without
+/// this check, two programs with one key would displace each other forever. A run that has fallen
+/// silent may be replaced at once.
 bool Association::pushes_another_out(base::TimePoint now) const
 {
     return current_ && responding_->other_run != current_->other_run &&
            now - run_since_ < runs_change_every && now - last_opened_ < silence;
 }
 
-/// True if an initiation that is proven to be the other side's is new, too.
+/// True if an initiation that is proven to be from the other side is also new.
 bool Association::take_initiation(base::TimePoint now)
 {
     ByteReader in{responding_->noise.payload()};
@@ -453,13 +455,13 @@ void Association::answer(base::TimePoint now)
     send_answer(now);
     responding_.reset();
     if (!unconfirmed_since_) unconfirmed_since_ = now;
-    if (!waits_for_confirmation(now)) return; // this side's own handshake goes on
+    if (!waits_for_confirmation(now)) return; // this side's own handshake continues
     end_initiating();                         // the other side's handshake is further
     confirm_at_.reset();
     unanswered_since_.reset();
 }
 
-/// Three answers have at most three times as many bytes as the initiation.
+/// Sends an answer. Three answers have at most three times as many bytes as the initiation.
 void Association::send_answer(base::TimePoint now)
 {
     answered_->repeats_left = response_repeats;
@@ -475,8 +477,8 @@ void Association::repeat_answer(base::TimePoint now)
     send(answered_->frame, answered_->to);
 }
 
-/// Sends confirmations until the other side is heard under the key that this one began. The other
-/// side does not use that key before it has heard this side under it, and this side may have no
+/// Sends confirmations until the other side is heard under the key that this side began. The other
+/// side does not use that key before it has received a message under it, and this side may have no
 /// messages of its own.
 void Association::confirm(base::TimePoint now)
 {
@@ -497,7 +499,7 @@ void Association::repeat(base::TimePoint now)
     confirm(now);
     if (!initiating_ || !initiating_->frame) return;
     if (now - initiating_->began >= fresh_after) {
-        // The lower id listens for a while: perhaps the other side can reach us.
+        // The lower id listens for a while, because the other side may be able to reach this one.
         if (is_lower()) listens_until_ = now + listen_for;
         end_initiating();
         return;
@@ -509,11 +511,11 @@ void Association::repeat(base::TimePoint now)
     initiating_->last_sent = now;
     initiating_->has_new_cookie = false;
     if (place_) send(*initiating_->frame, *place_);
-    // An attacker on the path may have made both sides look for each other elsewhere.
+    // An attacker on the path may have made both sides send to wrong places.
     if (config_.place && config_.place != place_) send(*initiating_->frame, *config_.place);
 }
 
-// --- what goes ---
+// --- messages to send ---
 
 void Association::send(const HandshakeFrame& frame, const Place& to)
 {

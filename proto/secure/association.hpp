@@ -21,28 +21,28 @@
 
 namespace hapnet::secure {
 
-/// Both clocks of one moment: the one that only runs forward, and the date, which a handshake
-/// carries so that an old one is known for that.
+/// The two clocks at one moment: the monotonic clock, and the date. A handshake contains the date,
+/// so that an old handshake is recognised.
 struct Moment {
     base::TimePoint now;
     std::int64_t unix_ns = 0;
 };
 
-/// The sealed connection between one peer and another. Makes keys when the two meet, makes new ones
-/// every two minutes and after silence, opens messages that come under them, and tracks the address
-/// of the other side. Does no I/O and reads no clock: feed with on_datagram() and tick(), drain
-/// with poll(). A call of tick() does at most one multiplication on the curve. All memory is
-/// allocated at construction.
+/// The sealed connection between one peer and another. Makes keys when the two meet, makes new keys
+/// every two minutes and after silence, opens messages that are sealed with these keys, and tracks
+/// the address of the other side. Does no I/O and reads no clock: feed it with on_datagram() and
+/// tick(), drain it with poll(). A call of tick() does at most one multiplication on the curve. All
+/// memory is allocated at construction.
 ///
-/// A handshake message that is refused ends nothing: the genuine message may still come. Messages
-/// with the right MAC wait to be read, an initiation for one tick and a response for two; if more
-/// than `waiting_max` wait, an unbiased choice of them is kept. With 1000 forged messages a second
-/// from a member of the circle, about one genuine message in four is read, and each is repeated 50
-/// times a second.
+/// A refused handshake message does not end the handshake, because the genuine message may still
+/// arrive. Messages with the right MAC wait to be read, an initiation for one tick and a response
+/// for two. If more than `waiting_max` wait, an unbiased choice of them is kept. With 1000 forged
+/// messages a second from a member of the circle, about one genuine message in four is read, and
+/// each is repeated 50 times a second.
 ///
-/// The lower id wins when both begin at the same time. The responder uses the old key until a
-/// message opens under the new one; the initiator sends a message under the new key until it is
-/// answered. A key belongs to one run of each side, so it names their session.
+/// The lower id wins when both sides begin at the same time. The responder uses the old key until a
+/// message opens under the new one. The initiator sends a message under the new key until it is
+/// answered. A key belongs to one run of each side, so it identifies their session.
 class Association {
 public:
     static constexpr base::Duration silence{std::chrono::seconds{1}};
@@ -57,36 +57,37 @@ public:
     static constexpr base::Duration listen_for{std::chrono::seconds{1}};
     static constexpr int response_repeats = 2;
     static constexpr std::size_t waiting_max = 8; // for initiations and for responses each
-    /// While the other side is heard, another run of that side replaces it no more often than this.
+    /// The shortest interval at which another run of the other side can replace the present one
+    /// while the present one is heard.
     static constexpr base::Duration runs_change_every{std::chrono::seconds{5}};
 
     struct Config {
         std::uint8_t own_id = 0, other_id = 0; // never equal
-        std::array<std::byte, 8> circle{};     // names the circle; both sides' are the same
-        std::uint32_t run = 0;                 // number of this program's run, not 0
+        std::array<std::byte, 8> circle{};     // identifies the circle; equal on both sides
+        std::uint32_t run = 0;                 // number of this program's run, never 0
         std::optional<Place> place;            // address of the other side, if given
         bool may_roam = true;                  // the other side may change its address
         std::uint32_t (*session_of)(std::uint32_t low_run, std::uint32_t high_run) = nullptr;
     };
-    /// `seed` is drawn at random, and used for nothing else.
+    /// `seed` must be random, and must not be used for anything else.
     Association(const Config& config, StaticKeys keys, Secret seed);
     Association(const Association&) = delete;
     Association& operator=(const Association&) = delete;
     ~Association() = default;
 
-    /// True if a datagram claims to be for these two: it names one of their keys or handshakes, or
-    /// begins a handshake from the other side. This proves nothing about its sender.
+    /// True if a datagram claims to belong to this association: it names one of its keys or
+    /// handshakes, or begins a handshake from the other side. This proves nothing about its sender.
     [[nodiscard]] bool is_named_by(Bytes datagram) const;
 
-    /// A message that was opened: the first bytes of the datagram are the plain message.
+    /// An opened message. The first bytes of the datagram are now the plain message.
     struct Received {
         std::size_t size = 0;
         std::uint32_t other_run = 0;
     };
-    /// Opens a message in place, or takes in a part of a handshake.
+    /// Opens a message in place, or takes a part of a handshake.
     std::optional<Received> on_datagram(std::span<std::byte> datagram, const Place& from,
                                         base::TimePoint now);
-    /// Goes on with handshakes, and begins one when it is time.
+    /// Continues handshakes, and begins one when it is due.
     void tick(Moment moment);
 
     struct Outgoing {
@@ -96,13 +97,13 @@ public:
     /// Returns the next message of a handshake to send.
     [[nodiscard]] std::optional<Outgoing> poll();
 
-    /// Seals a plain message in place; its room has `control_overhead` bytes more. nullopt: there
-    /// is no key for it, so it is not to be sent.
+    /// Seals a plain message in place; `room` must have `control_overhead` more bytes. nullopt:
+    /// there is no key, so the message must not be sent.
     [[nodiscard]] std::optional<std::size_t> seal(std::span<std::byte> room, std::size_t size,
                                                   base::TimePoint now);
     [[nodiscard]] bool has_key(base::TimePoint now) const;
-    /// The address to send to. nullopt if no address was given and the other side has not been
-    /// heard yet.
+    /// Returns the address to send to; nullopt if no address was given and the other side has not
+    /// been heard yet.
     [[nodiscard]] const std::optional<Place>& place() const { return place_; }
     [[nodiscard]] std::optional<base::Duration> key_age(base::TimePoint now) const;
 
@@ -113,13 +114,13 @@ public:
         std::uint64_t replayed = 0;
         std::uint64_t unsealed = 0;
         std::uint64_t unknown_key = 0;
-        std::uint64_t other_circle = 0; // handshakes without the pre-shared key, or for others
-        std::uint64_t refused = 0;      // parts of handshakes that failed later, forged ones too
+        std::uint64_t other_circle = 0; // handshakes without the pre-shared key, or for other peers
+        std::uint64_t refused = 0;      // messages that failed later, including forged ones
         std::uint64_t unread = 0;
         std::uint64_t cookies = 0;
         std::uint64_t roamed = 0;
         std::uint64_t not_sealed = 0;
-        base::Duration last_handshake{}; // duration; 0: this side has begun none that was finished
+        base::Duration last_handshake{}; // 0: this side has begun none that was completed
 
         /// Adds the counts of another association, and keeps the longer of the two times.
         Counts& operator+=(const Counts& other);
@@ -127,7 +128,7 @@ public:
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
 private:
-    /// The keys that one handshake made, and their use.
+    /// The keys that one handshake made, and the state of their use.
     struct Epoch {
         Epoch(KeyIndex own_index, KeyIndex other_index, NoiseKk::TransportKeys keys,
               std::uint32_t run, std::uint32_t number, base::TimePoint now)
@@ -147,9 +148,9 @@ private:
         std::uint32_t session;
         base::TimePoint made;
         std::uint32_t controls = 0;    // number of sealed control messages
-        bool has_opened_state = false; // false: hellos still show where the other side is
+        bool has_opened_state = false; // false: hellos still update the address of the other side
     };
-    /// A handshake message with the right MAC, which waits to be read.
+    /// A handshake message with the right MAC that waits to be read.
     struct WaitingInitiation {
         KeyIndex sender = 0;
         Mac cause{}; // first MAC of the initiation
@@ -170,7 +171,7 @@ private:
         KeyIndex own;
         NoiseKk noise;
         base::TimePoint began;
-        std::optional<HandshakeFrame> frame; // the initiation, once it is written
+        std::optional<HandshakeFrame> frame; // the initiation, once written
         std::optional<base::TimePoint> last_sent;
         bool has_new_cookie = false;
         FairQueue<WaitingResponse, waiting_max> responses;
@@ -241,13 +242,13 @@ private:
     CookieJar cookies_;
     std::optional<Place> place_;
 
-    // At most three epochs: the one in use, one that the other side has not confirmed yet, and one
-    // that ends soon.
+    // At most three sets of keys: the present one, one that the other side has not confirmed yet,
+    // and one that expires soon.
     std::optional<Epoch> current_, next_, previous_;
     std::int64_t next_date_ = 0; // date of the initiation that made next_
     base::TimePoint previous_until_;
     base::TimePoint last_opened_;
-    base::TimePoint run_since_; // start of the other side's present run
+    base::TimePoint run_since_; // start of the present run of the other side
 
     std::optional<Initiating> initiating_;
     std::optional<base::TimePoint> unanswered_since_;
@@ -257,7 +258,7 @@ private:
     std::optional<base::TimePoint> confirm_at_; // next confirmation; nullopt: none due
     FairQueue<WaitingInitiation, waiting_max> initiations_;
     std::optional<Responding> responding_;
-    bool is_turn_to_initiate_ = false; // who continues if initiating and responding have work
+    bool is_turn_to_initiate_ = false; // next to continue if initiating and responding have work
     std::optional<Answer> answered_;
     std::optional<base::TimePoint> unconfirmed_since_; // first answer since the last handshake
     InitiationDates dates_;

@@ -12,7 +12,7 @@ namespace {
 
 Bytes text(std::string_view words) { return std::as_bytes(std::span{words}); }
 
-/// Cookies are sealed for peers that know the other side's key.
+/// Returns the key of cookies, which every peer that knows the other side's key can compute.
 Secret key_of_cookies(const Hash& mac1_key)
 {
     const Hash key = hash(text("hapnet cookie"), mac1_key);

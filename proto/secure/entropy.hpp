@@ -9,9 +9,9 @@
 
 namespace hapnet::secure {
 
-/// Secrets from one that was drawn at random: a core draws nothing itself, and a test repeats them.
-/// After each draw the state is hashed forward, so that memory that is read later does not tell
-/// what was drawn before.
+/// Derives secrets from one that was drawn at random, because a core draws nothing itself and tests
+/// must be repeatable. After each draw the state is hashed forward, so that memory read later does
+/// not reveal earlier draws.
 class Entropy {
 public:
     explicit Entropy(Secret seed) : state_{std::move(seed)} {}
@@ -23,7 +23,7 @@ public:
         state_ = Secret{next.bytes().first<key_bytes>()};
         return drawn;
     }
-    /// Random bytes that are public: an index, a nonce.
+    /// Returns random bytes for public use, such as an index or a nonce.
     template <std::size_t count>
     [[nodiscard]] std::array<std::byte, count> bytes()
     {

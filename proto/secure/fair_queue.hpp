@@ -10,13 +10,13 @@
 
 namespace hapnet::secure {
 
-/// A bounded queue, served in the order of numbers that its user draws at random, the highest
-/// first. When it is full, the item with the lowest number is lost. A flood of items so lowers the
-/// chance of each item by as much, whenever each comes. Items are small values.
+/// A bounded queue that serves items in descending order of numbers, which the caller draws at
+/// random. If it is full, the item with the lowest number is lost. So a flood of items reduces the
+/// chance of every item equally, whatever its time of arrival. Items are small values.
 template <typename Item, std::size_t room>
 class FairQueue {
 public:
-    /// Returns whether there was room; otherwise this item or another one is lost.
+    /// Adds an item. Returns false if the queue was full, so that this item or another one is lost.
     bool add(const Item& item, std::uint32_t number)
     {
         if (size_ < room) {
@@ -27,7 +27,7 @@ public:
         if (lowest.number < number) lowest = {item, number};
         return false;
     }
-    /// Takes the item that is next; the queue is not empty.
+    /// Removes and returns the item with the highest number. The queue must not be empty.
     [[nodiscard]] Item take()
     {
         Numbered& next = *std::ranges::max_element(waiting(), {}, &Numbered::number);
@@ -35,7 +35,7 @@ public:
         next = all_[--size_];
         return item;
     }
-    /// The first item of which `is_it` holds; nullptr when there is none.
+    /// Returns an item for which `is_it` is true; nullptr if there is none.
     template <typename Predicate>
     [[nodiscard]] Item* find(Predicate is_it)
     {

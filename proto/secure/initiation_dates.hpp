@@ -13,21 +13,24 @@
 
 namespace hapnet::secure {
 
-/// Recognises new initiations of the other side by the dates in them. A date is final once its
-/// handshake made a key that the other side used: nothing older is taken again. Until then it may
-/// be that of a recorded initiation of a former run, and the other side's clock may have gone back
-/// since: for a while nothing older is taken, afterwards nothing older of the same run. So each
-/// recorded initiation is taken once, and shuts the present run out for no longer than that while.
+/// Recognises new initiations of the other side by their dates. A date is final once the other side
+/// has used the key of its handshake: older dates are refused from then on. An unconfirmed date may
+/// be that of a recorded initiation of an earlier run, and the other side's clock may have been set
+/// back since. So older dates of any run are refused for a while, and afterwards only those of the
+/// same run. Each recorded initiation is thus accepted once, and excludes the present run for that
+/// while at most.
 class InitiationDates {
 public:
-    /// Duration for which a date also counts for other runs: as long as an initiator waits for its
-    /// key.
+    /// The time for which an unconfirmed date also excludes other runs. An initiator waits for its
+    /// key equally long.
     static constexpr base::Duration unconfirmed_lasts{std::chrono::seconds{5}};
-    /// Runs whose unconfirmed dates are remembered; of more the one taken longest ago is forgotten.
+    /// The number of runs whose unconfirmed dates are remembered. Beyond it, the one that was
+    /// accepted longest ago is forgotten.
     static constexpr std::size_t runs_max = 32;
 
-    /// Remembers that date, in ns since 1970, when it is new; returns whether it was. `run` is the
-    /// sender's and not 0. Call it only when the initiation is proven to be the other side's.
+    /// Remembers a date, in ns since 1970, if it is new. Returns true if it was new. `run` is the
+    /// run of the sender and never 0. Call it only if the initiation is proven to be from the other
+    /// side.
     [[nodiscard]] bool take(std::uint32_t run, std::int64_t date, base::TimePoint now)
     {
         if (confirmed_ && date <= *confirmed_) return false;
@@ -38,7 +41,7 @@ public:
         place_of(run) = {run, date, now};
         return true;
     }
-    /// The other side has used the key of the initiation with that date.
+    /// Makes the date of an initiation final, because the other side has used its key.
     void confirm(std::int64_t date) { confirmed_ = std::max(date, confirmed_.value_or(date)); }
 
 private:

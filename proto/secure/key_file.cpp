@@ -37,7 +37,7 @@ std::string read_text(const Node* node, Reading& reading)
     return text;
 }
 
-/// A key; the complaint does not quote what stands there.
+/// Reads a key. The complaint does not quote the text.
 std::array<std::byte, key_bytes> read_key(const Node* node, Reading& reading)
 {
     if (node == nullptr) return {};
@@ -119,7 +119,7 @@ Secret read_shared(const Node& document, Reading& reading)
     return shared;
 }
 
-/// Twelve groups of five decimal digits, each the remainder of a 40-bit number.
+/// Returns twelve groups of five decimal digits, each the remainder of a 40-bit number.
 std::string in_groups(const Hash& sum)
 {
     constexpr std::size_t groups = 12, bytes = 5;

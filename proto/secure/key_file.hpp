@@ -41,35 +41,35 @@ struct KeyFile {
     std::uint8_t id = 1;
     Secret own;
     Secret pre_shared;
-    std::vector<Member> others; // in the order of their ids
+    std::vector<Member> others; // sorted by their ids
 
     [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared.bytes()); }
-    /// nullptr when no such peer is in the circle.
+    /// Returns the member with that id; nullptr if the circle has none.
     [[nodiscard]] const Member* find(std::uint8_t peer) const;
-    /// Returns the keys for an association with that peer, which is a member of the circle.
+    /// Returns the keys for an association with a member of the circle.
     [[nodiscard]] StaticKeys keys_with(const Member& member) const;
-    /// The circle's name as handshakes carry it.
+    /// Returns the name of the circle in the form that handshakes contain.
     [[nodiscard]] std::array<std::byte, 8> circle() const;
-    /// Twelve groups of five decimal digits (199 bits), to be compared by telephone. They are the
-    /// same on every host of a circle whose hosts hold the same keys, and reveal nothing of the
+    /// Returns twelve groups of five decimal digits (199 bits), for comparison by telephone. They
+    /// are equal on all hosts of a circle that hold the same keys, and reveal nothing about the
     /// keys. An attacker between two hosts would have to try 2^99 keys to find two with similar
     /// digits.
     [[nodiscard]] std::string fingerprint() const;
 };
 
-/// Reads the text of a key file; `source` names it in complaints, which never quote a secret.
+/// Parses the text of a key file. `source` names it in complaints, which never quote a secret.
 [[nodiscard]] base::Result<KeyFile> parse_key_file(std::string_view text,
                                                    const std::string& source);
-/// Text that reads back as the same; it holds the secrets.
+/// Returns a text that parses to the same key file. It contains the secrets.
 [[nodiscard]] std::string print_key_file(const KeyFile& file);
 
-/// A circle's shared key alone, as text for the hosts that do not have it yet: `psk = "BASE64"`.
+/// Parses a circle's shared key alone, a text for hosts that do not have it yet: `psk = "BASE64"`.
 [[nodiscard]] base::Result<Secret> parse_shared_key(std::string_view text,
                                                     const std::string& source);
 [[nodiscard]] std::string print_shared_key(const Secret& key);
 
-/// The files of a new circle with the ids 1 to `count` (at most KeyFile::id_max), each for its host
-/// alone.
+/// Makes the key files of a new circle with the ids 1 to `count` (at most KeyFile::id_max), one for
+/// each host.
 [[nodiscard]] std::vector<KeyFile> make_circle(const std::string& name, std::uint8_t count,
                                                Entropy& entropy);
 

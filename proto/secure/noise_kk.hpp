@@ -15,7 +15,7 @@ namespace hapnet::secure {
 /// The keys that one side has before a handshake begins.
 class StaticKeys {
 public:
-    /// Returns nullopt when no secret can be shared with that public key.
+    /// Returns nullopt if no secret can be shared with that public key.
     [[nodiscard]] static std::optional<StaticKeys> from(Secret own, const PublicKey& other,
                                                         Secret shared);
 
@@ -23,9 +23,10 @@ public:
     [[nodiscard]] const PublicKey& own_public() const { return own_public_; }
     [[nodiscard]] const PublicKey& other() const { return other_; }
     [[nodiscard]] const Secret& pre_shared() const { return pre_shared_; }
-    /// False if the circle has no such key: zeros take its place in handshakes.
+    /// False if the circle has no pre-shared key. Handshakes use zeros then.
     [[nodiscard]] bool has_pre_shared() const { return !is_zero(pre_shared_.bytes()); }
-    /// Diffie and Hellman's secret of the two static keys: computed once, not in every handshake.
+    /// Returns the Diffie-Hellman secret of the two static keys. It is computed once, not in every
+    /// handshake.
     [[nodiscard]] const Secret& common() const { return common_; }
 
 private:
@@ -44,7 +45,7 @@ private:
     Secret common_;
 };
 
-/// The initiator of a handshake sends its first message.
+/// The role in a handshake. The initiator sends the first message.
 enum class Role : std::uint8_t { initiator, responder };
 
 /// One side's part in a handshake by the Noise protocol Noise_KKpsk0_25519_ChaChaPoly_BLAKE2b
@@ -63,25 +64,26 @@ public:
     static constexpr std::size_t payload_bytes_max = 32;
     static constexpr std::size_t message_bytes_max = key_bytes + payload_bytes_max + tag_bytes;
 
-    /// `prologue` is what both sides must agree on. `keys` outlives this. `ephemeral` is drawn
-    /// afresh for every handshake.
+    /// `prologue` is data that must be equal on both sides. `keys` must outlive this. `ephemeral`
+    /// must be drawn for this handshake only.
     NoiseKk(Role role, const StaticKeys& keys, Bytes prologue, Secret ephemeral);
 
-    /// Begins the message that is this side's to send.
+    /// Begins to write this side's next message.
     void write(Bytes payload);
-    /// Begins to read the message that is the other side's to send.
+    /// Begins to read the other side's next message.
     void read(Bytes message);
 
     enum class Progress : std::uint8_t { working, done, refused };
-    /// Goes on with the message. `refused`: the other side has not sent it for this handshake.
+    /// Continues with the message. Returns `refused` if the other side has not sent it for this
+    /// handshake.
     [[nodiscard]] Progress step();
 
-    /// The message, when write() is done.
+    /// Returns the message, after write() is done.
     [[nodiscard]] Bytes message() const { return Bytes{buffer_}.first(size_); }
-    /// The payload of the message, when read() is done.
+    /// Returns the payload of the message, after read() is done.
     [[nodiscard]] Bytes payload() const;
 
-    /// The keys for what follows, after both messages.
+    /// The keys for messages after the handshake.
     struct TransportKeys {
         Secret to_other, from_other;
         Hash handshake{}; // hash of the handshake, equal on both sides only
@@ -98,7 +100,7 @@ private:
         Tokens{{Token::psk, Token::e, Token::es, Token::ss}, 4},
         Tokens{{Token::e, Token::ee, Token::se}, 3}};
 
-    /// Noise's SymmetricState (section 5.2).
+    /// The SymmetricState of Noise (section 5.2).
     struct Symmetric {
         SecretHash chaining_key;
         Hash hash{};
@@ -128,7 +130,7 @@ private:
     PublicKey ephemeral_public_{};
     PublicKey other_ephemeral_{};
     Symmetric state_;
-    Symmetric before_; // state before the message that is under way
+    Symmetric before_; // state before the message in progress
 
     std::size_t message_ = 0; // number of the message, 0 or 1; 2: all done
     std::size_t token_ = 0;

@@ -21,7 +21,7 @@ static_assert(hash_bytes == crypto_generichash_BYTES_MAX);
 
 namespace {
 
-// libsodium's bytes. Reading any object as unsigned char is allowed.
+// Converts bytes to the type of libsodium. Reading any object as unsigned char is allowed.
 const unsigned char* raw(Bytes bytes)
 {
     return reinterpret_cast<const unsigned char*>(bytes.data()); // NOLINT(*-reinterpret-cast)
@@ -45,7 +45,7 @@ std::array<std::byte, crypto_aead_chacha20poly1305_ietf_NPUBBYTES> nonce_of(std:
     return nonce;
 }
 
-/// True if it is below the curve's prime, in little-endian order.
+/// True if the key, in little-endian order, is below the prime of the curve.
 bool is_canonical(const PublicKey& key)
 {
     constexpr PublicKey prime = [] {

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <utility>
 
-/// Keys, the handshake that makes session keys, and the sealing of messages. They decide which
-/// peers may move a hand.
+/// Keys, the handshake that makes session keys, and the sealing of messages. They ensure that only
+/// members of the circle can move a hand.
 namespace hapnet::secure {
 
-// The functions that Noise names 25519, ChaChaPoly and BLAKE2b, by libsodium. Only this file and
-// keys/, which draws at random, call libsodium.
+// The functions that Noise names 25519, ChaChaPoly and BLAKE2b, implemented with libsodium. Only
+// this file and keys/, which draws at random, call libsodium.
 
 inline constexpr std::size_t key_bytes = 32;
 inline constexpr std::size_t hash_bytes = 64;
@@ -27,10 +27,10 @@ using PublicKey = std::array<std::byte, key_bytes>;
 using Hash = std::array<std::byte, hash_bytes>;
 using Mac = std::array<std::byte, 16>;
 
-/// Overwrites memory so that no compiler leaves it out.
+/// Overwrites memory in a way that no compiler removes.
 void wipe(std::span<std::byte> bytes);
 
-/// Secret bytes. They move and are never copied, and zeros are left where they were.
+/// Secret bytes. They can be moved but not copied. A move leaves zeros.
 template <std::size_t count>
 class SecretBytes {
 public:
@@ -59,25 +59,26 @@ public:
 private:
     std::array<std::byte, count> bytes_{};
 };
-/// A key of the cipher, a private key of the curve, a pre-shared key, or what two sides share.
+/// A key of the cipher, a private key of the curve, a pre-shared key, or a secret that two sides
+/// share.
 using Secret = SecretBytes<key_bytes>;
 using SecretHash = SecretBytes<hash_bytes>;
 
-/// Chooses the fastest code for this processor; call it once before anything below. It may be
-/// called again, from any thread. Without a source of randomness the program ends here.
+/// Selects the fastest code for this processor. Call it once before anything below; further calls
+/// are allowed, from any thread. The program ends here if there is no source of randomness.
 void prepare();
 
-/// BLAKE2b (RFC 7693) of parts, one after the other.
+/// BLAKE2b (RFC 7693) of several parts, one after the other.
 class Blake2b {
 public:
-    /// `size` of the result: 16 to 64 bytes. A key has as many, or is empty.
+    /// `size` is that of the result: 16 to 64 bytes. The key is empty or has 16 to 64 bytes.
     explicit Blake2b(std::size_t size, Bytes key = {});
     Blake2b(const Blake2b&) = delete;
     Blake2b& operator=(const Blake2b&) = delete;
     ~Blake2b();
 
     Blake2b& add(Bytes part);
-    /// Writes the result, once.
+    /// Writes the result. Call it once.
     void end(std::span<std::byte> result);
 
 private:
@@ -85,29 +86,31 @@ private:
     std::size_t size_;
 };
 
-/// BLAKE2b with 64 bytes over the parts one after the other.
+/// Returns the BLAKE2b hash, with 64 bytes, of the concatenated parts.
 [[nodiscard]] Hash hash(Bytes first, Bytes second = {});
-/// BLAKE2b with 16 bytes under a key of 16 to 64 bytes.
+/// Returns the BLAKE2b hash, with 16 bytes, under a key of 16 to 64 bytes.
 [[nodiscard]] Mac keyed_hash(Bytes key, Bytes first, Bytes second = {});
 
-/// HKDF as Noise defines it (revision 34, section 4.3), with HMAC-BLAKE2b (RFC 2104; block 128).
+/// The result of HKDF as Noise defines it (revision 34, section 4.3), with HMAC-BLAKE2b (RFC 2104;
+/// block 128).
 using Expanded = std::array<SecretHash, 3>;
 [[nodiscard]] Expanded expand(const SecretHash& chaining_key, Bytes input);
-/// HMAC-BLAKE2b with 64 bytes.
+/// Returns the HMAC-BLAKE2b with 64 bytes.
 [[nodiscard]] SecretHash authenticate(Bytes key, Bytes first, Bytes second = {});
 
-/// The X25519 public key of a private one.
+/// Returns the X25519 public key of a private key.
 [[nodiscard]] PublicKey public_key_of(const Secret& own);
-/// X25519 (RFC 7748). nullopt when the other's key is not valid: one of the few that make every
-/// result zero, or a number that is not below 2^255 - 19. The curve would take such a number for
+/// Computes X25519 (RFC 7748). Returns nullopt if the other key is not valid, because it makes
+/// every result zero or is not a number below 2^255 - 19. The curve would take such a number for
 /// another one, so that one key could be written in two ways.
 [[nodiscard]] std::optional<Secret> diffie_hellman(const Secret& own, const PublicKey& other);
 
-/// ChaCha20-Poly1305 (RFC 8439) with Noise's nonce: four zeros, then the number in little-endian
-/// order. No number may be used twice under a key. `room` holds the text and after it `tag_bytes`
-/// free bytes; both are overwritten.
+/// Seals with ChaCha20-Poly1305 (RFC 8439) and Noise's nonce: four zeros, then the number in
+/// little-endian order. No number may be used twice with a key. `room` contains the text and after
+/// it `tag_bytes` free bytes; both are overwritten.
 void seal(const Secret& key, std::uint64_t number, Bytes associated, std::span<std::byte> room);
-/// Undoes it in place. False: not sealed so, and nothing of `room` may be read.
+/// Reverses seal() in place. Returns false if `room` was not sealed in this way; its content must
+/// not be used then.
 [[nodiscard]] bool open(const Secret& key, std::uint64_t number, Bytes associated,
                         std::span<std::byte> room);
 
@@ -126,8 +129,7 @@ void seal(const Secret& key, const WideNonce& nonce, Bytes associated, std::span
 
 /// Base 64 (RFC 4648, with padding), in a time that does not depend on the bytes.
 [[nodiscard]] std::string to_base64(Bytes bytes);
-/// Parses a key of this many bytes. nullopt for other text, and for text that to_base64() would not
-/// write.
+/// Parses a key of this many bytes. Returns nullopt for any text that to_base64() would not write.
 [[nodiscard]] std::optional<std::array<std::byte, key_bytes>>
 key_from_base64(std::string_view text);
 

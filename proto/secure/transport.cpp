@@ -8,7 +8,7 @@ namespace hapnet::secure {
 
 namespace {
 
-/// The kinds share a key and no number.
+/// Returns the number in the nonce. The kinds share a key, but no number.
 std::uint64_t nonce_number(Kind kind, std::uint32_t number)
 {
     return static_cast<std::uint64_t>(kind) << 32 | number;
@@ -31,8 +31,7 @@ Opener::Outcome Opener::open(Kind kind, std::uint32_t number, Bytes associated,
         if (room.size() < tag_bytes || number > Sealer::number_max ||
             !secure::open(key_, nonce_number(kind, number), associated, room))
             return Outcome::forged;
-        // The number counts only now: one forged message would otherwise shut out all that come
-        // after it.
+        // The number is added only now. Otherwise one forged message could exclude all later ones.
         numbers.add(number);
         return numbers.highest() == number ? Outcome::opened_newest : Outcome::opened;
     };

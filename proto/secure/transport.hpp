@@ -12,15 +12,16 @@
 
 namespace hapnet::secure {
 
-/// Messages of one kind have numbers of their own, so that a lost hello leaves no gap among states.
+/// The kind of a message. Each kind has its own numbers, so that a lost hello leaves no gap among
+/// states.
 enum class Kind : std::uint8_t { state = 0, control = 1 };
 inline constexpr std::size_t kinds = 2;
 
-/// Seals messages with one key. A number that does not grow within its kind ends the program: no
-/// nonce is ever used twice.
+/// Seals messages with one key. Ensures that the numbers of each kind increase, so that no nonce is
+/// used twice.
 class Sealer {
 public:
-    /// A key seals no more messages of a kind than this.
+    /// The largest number of a message of each kind that a key may seal.
     static constexpr std::uint32_t number_max = 0x7fff'ffff;
 
     explicit Sealer(Secret key) : key_{std::move(key)} {}
@@ -30,7 +31,7 @@ public:
         return number >= next_[static_cast<std::size_t>(kind)] && number <= number_max;
     }
 
-    /// `room` holds the text and after it `tag_bytes` free bytes.
+    /// Seals a message. `room` contains the text and after it `tag_bytes` free bytes.
     void seal(Kind kind, std::uint32_t number, Bytes associated, std::span<std::byte> room);
 
 private:
@@ -38,10 +39,10 @@ private:
     std::array<std::uint64_t, kinds> next_{}; // smallest number that may be sealed next
 };
 
-/// Opens what the Sealer of the other side sealed, each message once.
+/// Opens the messages that the other side's Sealer has sealed, each of them once.
 class Opener {
 public:
-    /// Number of states behind the newest one that may still come: 8 s at 1 kHz.
+    /// The number of states behind the newest one that are still accepted: 8 s at 1 kHz.
     static constexpr std::size_t state_window = 8192;
     static constexpr std::size_t control_window = 64;
 
@@ -50,10 +51,10 @@ public:
     enum class Outcome : std::uint8_t {
         opened,
         opened_newest, // no message of its kind has a greater number
-        replayed,      // opened before, or too old to tell; was not opened now
+        replayed,      // opened before, or too old to tell; not opened this time
         forged,        // not sealed with this key
     };
-    /// Opens it in place. Only a genuine message moves the window.
+    /// Opens a message in place. Only a genuine message moves the window.
     [[nodiscard]] Outcome open(Kind kind, std::uint32_t number, Bytes associated,
                                std::span<std::byte> room);
 

@@ -20,7 +20,7 @@ void Decimator::take(const record::TickRow& tick)
 
 void Decimator::take(const record::SessionRow& session)
 {
-    // Among several, each other has a row: they say the same of the session itself.
+    // With several other peers, each has a row. Their data about the session itself are the same.
     frame_.session = session;
     if (session.other == 0) return;
     HeardFrame& heard = frame_.heard[place_of(session.other)];
@@ -93,7 +93,7 @@ std::size_t Decimator::place_of(std::uint16_t id)
     return static_cast<std::size_t>(place);
 }
 
-/// Begins the values of a time span again; the newest values stay.
+/// Resets the values of the time span. The newest values are kept.
 void Decimator::begin_anew()
 {
     ++frame_.number;

@@ -15,27 +15,27 @@
 
 namespace hapnet::telemetry {
 
-/// Returns the names of values that a tick's row has as numbers; `fault` returns "none" without a
-/// fault.
+/// Functions that return names for values that the row of a tick contains as numbers. `fault`
+/// returns "none" without a fault.
 struct Names {
     std::string_view (*governor)(std::uint8_t state) = nullptr;
     std::string_view (*fault)(std::uint8_t fault) = nullptr;
 };
 
-/// Makes few frames of many rows of a peer, such that no extreme between two frames is lost. Feed
+/// Reduces the many rows of a peer to few frames, without losing extremes between two frames. Feed
 /// it with take() and hear(), drain it with next(). Does no I/O and reads no clock.
 class Decimator {
 public:
-    /// `names` has to contain both functions.
+    /// `names` must contain both functions.
     Decimator(std::uint16_t peer, const Names& names) : names_{names} { frame_.peer = peer; }
 
     void take(const record::TickRow& tick);
     void take(const record::SessionRow& session);
     void take(const record::BodyRow& body);
-    /// Takes a message of another peer as it came. Messages other than states are ignored.
+    /// Takes a received message of another peer. Messages other than states are ignored.
     void hear(std::uint16_t from, base::TimePoint received_at, std::span<const std::byte> message);
 
-    /// The frame of all that was fed since the one before; nullopt before the first tick.
+    /// Returns the frame of all input since the previous frame; nullopt before the first tick.
     [[nodiscard]] std::optional<Frame> next(std::uint64_t left_out = 0);
 
 private:

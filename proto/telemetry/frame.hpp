@@ -17,15 +17,16 @@
 
 namespace hapnet::telemetry {
 
-// The frame of a peer: docs/formats/live.md. Lengths, speeds and forces are SI.
+// The frame of a peer, see docs/formats/live.md. Lengths, speeds and forces are in SI units.
 
-// Decimals in JSON: of lengths, speeds and turns; of forces; of milliseconds and microseconds.
+// The numbers of decimals in JSON: for lengths, speeds and rotations; for forces; for milliseconds
+// and microseconds.
 inline constexpr int si_decimals = 9;
 inline constexpr int force_decimals = 7;
 inline constexpr int ms_decimals = 4;
 inline constexpr int us_decimals = 3;
 
-/// The least and the greatest of some values, and their mean; empty before the first.
+/// The minimum, the maximum and the mean of some values. All are 0 before the first value.
 class Spread {
 public:
     void add(double value)
@@ -38,7 +39,7 @@ public:
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
     [[nodiscard]] std::uint64_t count() const { return count_; }
-    /// 0 while empty.
+    /// Returns 0 while there is no value.
     [[nodiscard]] double min() const { return min_; }
     [[nodiscard]] double max() const { return max_; }
     [[nodiscard]] double mean() const
@@ -62,7 +63,7 @@ constexpr auto fields_of(base::Tag<Spread>)
                         base::computed<S>("max", [](const S& spread) { return spread.max(); }));
 }
 
-/// The largest of some values.
+/// The maximum of some values.
 struct Largest {
     double max = 0.0;
 };
@@ -71,7 +72,7 @@ constexpr auto fields_of(base::Tag<Largest>)
     return base::fields("largest", base::member("max", &Largest::max));
 }
 
-/// The least and the greatest.
+/// The minimum and the maximum of some values.
 struct Range {
     double min = 0.0;
     double max = 0.0;
@@ -82,7 +83,7 @@ constexpr auto fields_of(base::Tag<Range>)
                         base::member("max", &Range::max));
 }
 
-/// Returns a vector as JSON lists it.
+/// Returns a vector as a list for JSON.
 [[nodiscard]] inline std::array<double, 3> list_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 /// Figures about another peer's messages. Counts and `delay_ms` cover the time since the last
@@ -91,7 +92,7 @@ struct HeardFrame {
     std::uint16_t from = 0;
     std::uint64_t messages = 0;           // states that arrived
     std::uint64_t lost = 0;               // gaps in the numbers of states
-    std::uint64_t late = 0;               // states that came after a higher number, or again
+    std::uint64_t late = 0;               // states that arrived after a higher number, or again
     Spread delay_ms;                      // sender's stamp to this kernel's stamp
     std::optional<base::Duration> age;    // age of the newest state at the frame's time
     std::optional<base::Duration> offset; // the other peer's clock minus this one
@@ -120,7 +121,7 @@ constexpr auto fields_of(base::Tag<HeardFrame>)
             .rounded(ms_decimals));
 }
 
-/// The place of a shared body, in sessions whose ticks do not hold it.
+/// The position of a shared body, in sessions whose ticks do not contain it.
 struct BodyFrame {
     std::uint16_t body = 0;
     base::Position position;
@@ -149,7 +150,7 @@ constexpr auto fields_of(base::Tag<BodyFrame>)
             .rounded(si_decimals));
 }
 
-/// The session in a frame.
+/// Data about the session in a frame.
 struct SessionFrame {
     std::uint32_t number = 0;
     base::Duration at{};
@@ -211,7 +212,7 @@ constexpr auto fields_of(base::Tag<TickFrame>)
             "Whether the state of the other side is young enough to be used."));
 }
 
-/// The newest state of a peer, and the extremes since the frame before.
+/// The newest state of a peer, and the extremes since the previous frame.
 struct Frame {
     std::uint64_t number = 0;
     std::optional<std::uint64_t> left_out; // frames before this one that were not sent
@@ -219,7 +220,7 @@ struct Frame {
     TickFrame newest;
     std::optional<record::SessionRow> session;
     Spread cube_x_m;
-    Spread force_n; // norm of the force that the device was told
+    Spread force_n; // norm of the force that was sent to the device
     Spread late_us;
     std::uint64_t missed = 0;
     std::vector<BodyFrame> bodies;

@@ -26,11 +26,11 @@ constexpr std::uint16_t magic = 0x4e48; // "HN"
 enum Type : std::uint8_t { type_hello = 1, type_state = 2, type_bye = 3 };
 
 constexpr std::uint8_t flag_echo = 1U << 0;
-// hello
+// Flags of a hello.
 constexpr std::uint8_t flag_start = 1U << 1;
 constexpr std::uint8_t flag_start_heard = 1U << 2;
 constexpr std::uint8_t flag_in_session = 1U << 3;
-// state
+// Flags of a state.
 constexpr std::uint8_t flag_touching = 1U << 1;
 constexpr std::uint8_t flag_holding = 1U << 2;
 constexpr std::uint8_t flag_body = 1U << 3;
@@ -48,8 +48,8 @@ inline void put_header(ByteWriter& out, Type type, std::uint32_t session)
     out.u32(session);
 }
 
-/// No clock reads a time farther from its zero than 36 years; refusing them keeps every
-/// difference of two times within range.
+/// No clock is farther from its zero than 36 years. Larger times are refused, so that the
+/// difference of any two times is within range.
 constexpr std::int64_t time_max_ns = std::int64_t{1} << 60;
 
 bool is_near(std::int64_t ns) { return ns >= -time_max_ns && ns <= time_max_ns; }
@@ -70,7 +70,7 @@ inline base::TimePoint take_time(ByteReader& in, bool& canonical)
 
 using Words = std::array<std::uint32_t, 3>; // three single-precision numbers, or three sums
 
-/// All at once: one question whether there is room, and not three.
+/// Writes three words together, so that the room is checked once and not three times.
 inline void put_words(ByteWriter& out, const Words& words)
 {
     const Words ordered{base::in_little_endian(words[0]), base::in_little_endian(words[1]),
@@ -78,7 +78,7 @@ inline void put_words(ByteWriter& out, const Words& words)
     out.raw(std::as_bytes(std::span{ordered}));
 }
 
-/// Zeros where there are too few bytes.
+/// Reads three words. They are zero if there are too few bytes.
 inline Words take_words(ByteReader& in)
 {
     Words words{};
@@ -108,7 +108,7 @@ inline glm::dvec3 take_vector(ByteReader& in)
     return {component(words[0]), component(words[1]), component(words[2])};
 }
 
-/// Optional fields always take their room; absent ones are all zero.
+/// Writes an echo. Optional fields always have the same length; absent ones are all zero.
 inline void put_echo(ByteWriter& out, const std::optional<Echo>& echo)
 {
     base::ensure(!echo || (echo->age >= base::Duration{0} && echo->age <= echo_age_max));
@@ -175,7 +175,7 @@ void put(ByteWriter& out, const Hello& hello)
     out.f32(hello.hand.friction);
 }
 
-/// The error in a message; nullptr: none.
+/// A description of the error in a message; nullptr if there is none.
 using Fault = const char*;
 
 Fault take(ByteReader& in, Hello& hello)
@@ -235,7 +235,7 @@ inline void put(ByteWriter& out, const BodyState& body)
     put_words(out, body.turning->caused_angular_impulse_unms);
 }
 
-/// `id`: as it stands before the rest.
+/// Reads a body. `id` was read before.
 inline BodyState take_body(ByteReader& in, std::uint16_t id, bool& canonical)
 {
     BodyState body{.body = static_cast<std::uint16_t>(id & ~flag_turning),
@@ -255,7 +255,7 @@ inline BodyState take_body(ByteReader& in, std::uint16_t id, bool& canonical)
     return body;
 }
 
-// An intention is said in such steps, metres and metres per second.
+// The resolution of an intention, in metres and metres per second.
 constexpr double intention_step = 1e-5, intention_velocity_step = 2e-4;
 constexpr std::int16_t steps_max = 0x7fff;
 
@@ -317,13 +317,13 @@ inline bool is_finite(const State& state)
                        [](const BodyState& body) { return is_finite(body); });
 }
 
-// The number of bytes of every state after its type, and of those that a body adds.
+// The number of bytes of every state after its type, and of each body.
 constexpr std::size_t head_bytes = 82, body_bytes = 50;
 constexpr std::size_t turning_bytes = 44; // further bytes of a body that can turn
 
 Fault take(ByteReader& in, State& state)
 {
-    // Asked first, so that the reads below need not ask.
+    // This is checked first, so that the reads below need no check.
     if (!in.holds(head_bytes)) return "state: wrong length";
     bool canonical = true;
     state.session = in.u32();
@@ -377,7 +377,8 @@ Fault take(ByteReader& in, Bye& bye)
     return nullptr;
 }
 
-/// Reads a message into its final place: a state is long, and comes a thousand times a second.
+/// Decodes a message directly into its result, because states are long and arrive a thousand times
+/// a second.
 template <typename Kind>
 [[gnu::flatten]] Result<Message> taken(ByteReader in)
 {
@@ -399,7 +400,7 @@ std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce)
     return number == 0 ? 1 : number;
 }
 
-/// FNV-1a, folded to 32 bits.
+/// Computes FNV-1a, folded to 32 bits.
 std::uint32_t boot_of(std::string_view boot_id)
 {
     if (boot_id.empty()) return 0;
@@ -433,7 +434,7 @@ namespace {
 constexpr unsigned component_bits = 20;
 constexpr std::uint64_t component_mask = (std::uint64_t{1} << component_bits) - 1;
 constexpr std::uint64_t zero_component = std::uint64_t{1} << (component_bits - 1);
-// The smaller components are at most 1/sqrt(2) in size.
+// The three smaller components are at most 1/sqrt(2) in size.
 constexpr double component_step = 0.70710678118654752440 / static_cast<double>(zero_component - 1);
 
 struct SmallestThree {

@@ -22,27 +22,28 @@
 #include <type_traits>
 #include <variant>
 
-/// The messages between peers and their bytes. docs/formats/wire.md is the specification; this
-/// header is its vocabulary.
+/// The messages between peers and their encoding. docs/formats/wire.md is the specification, and
+/// this header uses its terms.
 namespace hapnet::wire {
 
 inline constexpr std::uint8_t protocol_version = 2;
 
-/// Bodies that one state describes, at most.
+/// The largest number of bodies in one state.
 inline constexpr std::size_t bodies_max = 8;
-/// The longest message: a state with eight bodies that turn. Always one datagram.
+/// The length of the longest message: a state with eight bodies that can turn. Each message is one
+/// datagram.
 inline constexpr std::size_t message_bytes_max = 838;
 
-/// Answers "when did my message reach you?": the two stamps from which the receiver computes
-/// round-trip time and clock offset, as NTP does (RFC 5905).
+/// The two stamps from which the receiver computes the round-trip time and the clock offset, as NTP
+/// does (RFC 5905). An echo answers the question "when did my message reach you?".
 struct Echo {
     base::TimePoint of;   // `sent` of the newest message from the other side
-    base::Duration age{}; // how long before this message it had arrived; at most 4.29 s
+    base::Duration age{}; // time from its arrival until this message; at most 4.29 s
 
     friend bool operator==(const Echo&, const Echo&) = default;
 };
 
-/// The name of a task as the hello carries it: at most 16 bytes of printable ASCII.
+/// The name of a task in a hello: at most 16 characters of printable ASCII.
 class TaskName {
 public:
     static constexpr std::size_t bytes_max = 16;
@@ -57,20 +58,20 @@ private:
     std::array<char, bytes_max> characters_{};
 };
 
-/// A hash of the text that names a machine's boot; 0 for an empty one.
+/// Returns a hash of the text that identifies a boot of a machine; 0 for an empty text.
 [[nodiscard]] std::uint32_t boot_of(std::string_view boot_id);
 
-/// A hand and its device as seen from the scene, in SI units; 0: not said.
+/// The properties of a hand and its device as the scene sees them, in SI units; 0: not given.
 struct HandModel {
     float mass = 0.0F, damping = 0.0F, stiffness = 0.0F, friction = 0.0F;
 
     friend bool operator==(const HandModel&, const HandModel&) = default;
 };
 
-/// "Here I am, this is what I play; have you heard me?" Sent every 20 ms until both know the
-/// start.
+/// "Here I am, this is what I play; have you heard me?" It is sent every 20 ms until both peers
+/// know the start.
 struct Hello {
-    std::uint32_t nonce = 0;       // number of this run of the sender; never 0
+    std::uint32_t nonce = 0;       // number of this run of the sender, never 0
     std::uint32_t nonce_heard = 0; // the other side's nonce; 0: nothing heard yet
     std::uint16_t peer_id = 0;     // never 0
     std::uint16_t tick_rate_hz = 0;
@@ -80,7 +81,7 @@ struct Hello {
     std::optional<Echo> echo;
     std::optional<base::TimePoint> start;       // the session's start on the sender's clock
     std::optional<base::TimePoint> start_heard; // the other side's `start` as received
-    bool in_session = false; // the sender was there before: its start and seed count
+    bool in_session = false; // the sender was in the session before: its start and seed count
     TaskName task;
     std::uint32_t length_ms = 0; // requested length of the session; 0: not given
     std::uint32_t heard = 0;     // bit i: the sender hears peer i, 1 to 31
@@ -91,13 +92,13 @@ struct Hello {
 };
 
 /// An orientation in 62 bits: which component of the unit quaternion is the largest, and the other
-/// three in steps of 1.3e-6; at most 4 microradians off.
+/// three components in steps of 1.3e-6. The error is at most 4 microradians.
 class Orientation {
 public:
     Orientation() = default; // not turned
     /// Encodes a quaternion of about unit length. Ensures that its length is close to 1.
     [[nodiscard]] static Orientation from(const glm::dquat& orientation);
-    /// Returns nullopt for a code that no quaternion has.
+    /// Returns nullopt for a code that does not stand for a quaternion.
     [[nodiscard]] static std::optional<Orientation> from_code(std::uint64_t code);
 
     [[nodiscard]] glm::dquat quaternion() const; // a unit quaternion
@@ -106,7 +107,8 @@ public:
     friend bool operator==(const Orientation&, const Orientation&) = default;
 
 private:
-    /// The code of the quaternion 1: its first component is the largest, the others are zero.
+    /// The code of the quaternion 1, whose first component is the largest and whose other
+    /// components are zero.
     static constexpr std::uint64_t upright =
         std::uint64_t{0x8'0000} << 40 | std::uint64_t{0x8'0000} << 20 | 0x8'0000U;
 
@@ -115,10 +117,10 @@ private:
     std::uint64_t code_ = upright;
 };
 
-/// Sums since the session began, modulo 2^32: a receiver subtracts the last that it read, with
-/// difference(). As running sums they survive loss, reordering and duplication.
+/// Sums since the session began, modulo 2^32. A receiver subtracts the sums that it read before,
+/// with difference(). Running sums tolerate loss, reordering and duplication.
 using Sums = std::array<std::uint32_t, 3>;
-/// Returns the change between two sums, which has to be smaller than 2^31 in size.
+/// Returns the change between two sums. Its absolute value has to be below 2^31.
 [[nodiscard]] constexpr std::array<std::int32_t, 3> difference(const Sums& now, const Sums& before)
 {
     std::array<std::int32_t, 3> added{};
@@ -151,7 +153,7 @@ struct BodyState {
     friend bool operator==(const BodyState&, const BodyState&) = default;
 };
 
-/// The bodies of a state, with ascending ids. Copying costs as much as there is in it.
+/// The bodies of a state, with ascending ids. The cost of copying depends on the number of bodies.
 class BodyStates {
 public:
     BodyStates() {} // NOLINT(*-member-init,*-use-equals-default): nothing is made before add()
@@ -159,7 +161,7 @@ public:
     ~BodyStates() = default;
     BodyStates& operator=(const BodyStates& other);
 
-    /// Ensures that there is room, and that the id is greater than those before it.
+    /// Adds a body. Ensures that there is room, and that its id is greater than those before it.
     BodyState& add(const BodyState& body)
     {
         return add([&body] { return body; });
@@ -182,9 +184,9 @@ public:
     [[nodiscard]] const BodyState* end() const { return all_.data() + count_; }
     [[nodiscard]] BodyState* begin() { return all_.data(); }
     [[nodiscard]] BodyState* end() { return all_.data() + count_; }
-    /// The first body; nullptr: there is no body.
+    /// Returns the first body; nullptr if there is none.
     [[nodiscard]] const BodyState* first() const { return empty() ? nullptr : begin(); }
-    /// The state of this body; nullptr: it is not among them.
+    /// Returns the state of this body; nullptr if it is not included.
     [[nodiscard]] const BodyState* find(std::uint16_t body) const;
 
     friend bool operator==(const BodyStates& a, const BodyStates& b);
@@ -198,7 +200,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// One tick of one peer.
+/// The state of one peer in one tick.
 struct State {
     // NOLINTNEXTLINE(*-use-equals-default): without it State{} would clear the room of all bodies
     State() {}
@@ -212,10 +214,12 @@ struct State {
     base::Position hip;
     base::Velocity hip_velocity;
     base::Force contact_force; // force of the sender's hand on the bodies
-    /// The place where the hand wants to be, from the HIP; to 10 um, at most 0.327 m along an axis.
+    /// The place where the hand intends to be, relative to the HIP. The resolution is 10 um, the
+    /// largest value 0.327 m along an axis.
     base::Displacement intention;
     base::Velocity intention_velocity; // precise to 0.2 mm/s, at most 6.55 m/s per axis
-    /// Work of the hand on its device since the session began, in microjoules, modulo 2^32.
+    /// The work that the hand has done on its device since the session began, in microjoules,
+    /// modulo 2^32.
     std::uint32_t work_uj = 0;
     BodyStates bodies; // bodies that something touches or moves
 
@@ -268,27 +272,28 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Returns the number of the session between two runs, from their nonces, where the peer with the
-/// lower id comes first. It is equal on both sides, different for every pair of runs, and never 0.
+/// Returns the number of the session between two runs, computed from their nonces; the nonce of the
+/// peer with the lower id is first. It is equal on both sides, different for every pair of runs,
+/// and never 0.
 [[nodiscard]] std::uint32_t session_number(std::uint32_t low_nonce, std::uint32_t high_nonce);
 
-/// Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero nonce, echo age in
-/// range. Positions, velocities and forces are rounded to single precision (4 nm at 10 cm); an
-/// intention that is farther from the HIP than can be said is said as far as it can be.
+/// Encodes a message. Ensures what decode() checks: finite vectors, times within 2^60 ns, no zero
+/// nonce, an echo age in range. Positions, velocities and forces are rounded to single precision (4
+/// nm at 10 cm). An intention that is too far from the HIP is limited to the largest value.
 [[nodiscard]] Datagram encode(const Hello& hello);
 [[nodiscard]] Datagram encode(const State& state);
 [[nodiscard]] Datagram encode(const Bye& bye);
 [[nodiscard]] Datagram encode(const Message& message);
 
-/// Decodes the message in a datagram. Refuses all bytes that are not canonical: accepted bytes
+/// Decodes the message in a datagram. Refuses all bytes that are not canonical, so accepted bytes
 /// encode to themselves.
 [[nodiscard]] base::Result<Message> decode(std::span<const std::byte> datagram);
 
-/// Returns the protocol version of a datagram that starts like a message of this protocol: the
+/// Returns the protocol version of a datagram that starts like a message of this protocol. The
 /// first three bytes are the same in every version.
 [[nodiscard]] std::optional<std::uint8_t> version_of(std::span<const std::byte> datagram);
 
-/// True if the datagram begins like a hello of this version. The rest is not read.
+/// True if the datagram begins like a hello of this version. The other bytes are not checked.
 [[nodiscard]] bool is_hello(std::span<const std::byte> datagram);
 
 } // namespace hapnet::wire

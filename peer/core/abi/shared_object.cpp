@@ -26,7 +26,7 @@ void put_body(const wire::BodyState* body, hapnet_state& to)
     if (body != nullptr) to.body = {plain(body->position.value), plain(body->velocity.value)};
 }
 
-/// All but the body.
+/// Converts a state, except for the body.
 void put_state(const wire::State& state, base::TimePoint arrived, hapnet_state& to)
 {
     to.sent_ns = count_of(state.sent);
@@ -58,7 +58,7 @@ void put_other(const Remote& other, hapnet_other& to)
     put_body(other.body(), to.state);
 }
 
-/// This peer's copy of the scene for the length of a call.
+/// Access to this peer's copy of the scene during a call.
 struct Access {
     scene::World& world;
     scene::BodyId body{};
@@ -100,7 +100,7 @@ void place(void* handle, const hapnet_body* body)
                    base::Velocity{vector_of(body->velocity)});
 }
 
-/// A vector that anything may be told; zero for one that is not finite.
+/// Returns a vector from the loaded code, or zero if it is not finite.
 glm::dvec3 finite(const hapnet_vector& v)
 {
     const glm::dvec3 vector = vector_of(v);

@@ -17,7 +17,7 @@ namespace hapnet::peer {
 
 struct SharedObjectOptions {
     std::string file;       // path of the shared object, relative to the working directory
-    std::string parameters; // text for the algorithm, which alone knows its meaning
+    std::string parameters; // text whose meaning only the algorithm knows
 
     friend bool operator==(const SharedObjectOptions&, const SharedObjectOptions&) = default;
 };
@@ -36,12 +36,13 @@ constexpr auto fields_of(base::Tag<SharedObjectOptions> /*struct*/)
 /// of this pointer exists.
 using Loaded = std::shared_ptr<const hapnet_algorithm>;
 
-/// An algorithm that is no part of the program: a C function of peer/core/abi/algorithm.h does what
-/// the others do themselves. Here is only what stands between the two; peer/shared_object/load.hpp
-/// loads it. A copy has memory of its own.
+/// An algorithm that is not part of the program: a C function of peer/core/abi/algorithm.h does the
+/// work. This class only connects the two; peer/shared_object/load.hpp loads the code. Each copy of
+/// this object has its own memory.
 class SharedObject {
 public:
-    /// The energy that the algorithm may bring into a hand at an Omni: as base, whatever it does.
+    /// The energy that the algorithm may bring into a hand at an Omni: the limits of base, whatever
+    /// it does.
     static constexpr auto energy_limits = energy_at_an_omni(0.46);
 
     SharedObject() = default;
@@ -52,13 +53,13 @@ public:
     [[nodiscard]] base::Result<SharedObject> with(Loaded loaded) const;
 
     void hear(const ReceivedState& received);
-    /// Ensures that it was loaded.
+    /// Plays one tick. Ensures that the algorithm is loaded.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t other);
 
     [[nodiscard]] const SharedObjectOptions& options() const { return options_; }
     [[nodiscard]] bool is_loaded() const { return loaded_ != nullptr; }
-    /// True if it can play with more than one other. Before it is loaded this is assumed.
+    /// True if the algorithm can play with more than one other peer. Assumed until it is loaded.
     [[nodiscard]] bool plays_with_many() const { return !loaded_ || loaded_->plays_with_many != 0; }
 
 private:

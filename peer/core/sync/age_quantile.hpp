@@ -11,8 +11,8 @@
 
 namespace hapnet::peer {
 
-/// The ages that something has had of late, in ticks, and the age that a share of them does not
-/// exceed. They are forgotten in fifths of the memory.
+/// The recent ages of some information, in ticks, and their quantiles. Ages are forgotten in fifths
+/// of the memory.
 class AgeQuantile {
 public:
     static constexpr std::int64_t age_max = 1023;
@@ -24,7 +24,7 @@ public:
         ++sum_[bin];
         ++count_;
     }
-    /// Once a tick.
+    /// Advances the time by a tick. Call it once per tick.
     void pass(base::Duration tick, base::Duration memory)
     {
         passed_ += tick;
@@ -39,7 +39,7 @@ public:
     }
     void forget() { *this = AgeQuantile{}; }
 
-    /// The smallest age that this share of them does not exceed; 0: there are none.
+    /// Returns the smallest age that this share of them does not exceed; 0 if there are none.
     [[nodiscard]] std::int64_t value(double share) const
     {
         const double above_max = (1.0 - share) * static_cast<double>(count_);

@@ -100,7 +100,8 @@ base::Result<void> check_bodies_of(const Algorithm& algorithm, std::span<const S
                                       "movable body that has turning = \"locked\"",
                                       name_of(algorithm)));
     }
-    // Compared below without the options that apply to these bodies.
+    // The options without those that apply to these bodies. They are compared with the defaults
+    // below.
     BaseOptions rest = base->options();
     rest.stale = {};
     rest.let_go_after = {};

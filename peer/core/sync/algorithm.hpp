@@ -21,10 +21,11 @@
 
 namespace hapnet::peer {
 
-/// The algorithms that keep two copies of the shared body together: a closed set, by name. Each is
-/// a small value that is told of every state that arrives (hear()), moves the world (tick()), and
-/// forgets a run of the remote that has ended (forget()). docs/design/algorithms.md describes
-/// them. SharedObject comes last: it stands for those that are no part of the program.
+/// The algorithms that keep two copies of the shared body consistent. The set is closed, and each
+/// has a name. Each is a small value that receives every arriving state (hear()), advances the
+/// world (tick()), and forgets a run of the remote that has ended (forget()).
+/// docs/design/algorithms.md describes them. SharedObject comes last: it represents those that are
+/// not part of the program.
 using Algorithm = std::variant<BaseAlgorithm, DeadReckoning, EstimatorPredictor, RemoteProxy,
                                BaseTdpa, Wave, Couple, Lag, Rollback, SharedObject>;
 
@@ -38,33 +39,34 @@ inline constexpr auto algorithm_names =
 
 static_assert(std::variant_size_v<Algorithm> == algorithm_names.size() + 1);
 
-/// Returns the algorithm of a name in algorithm_names, with all defaults, or of "shared-object",
-/// which names no file yet.
+/// Returns the algorithm with a name in algorithm_names, with all defaults, or that of
+/// "shared-object", which names no file yet.
 [[nodiscard]] base::Result<Algorithm> algorithm_named(std::string_view name);
 
-/// "base", "sep", "dead-reckoning", ..., "shared-object"
+/// Returns "base", "sep", "dead-reckoning", ..., or "shared-object".
 [[nodiscard]] std::string_view name_of(const Algorithm& algorithm);
 
-/// The treatment of states that were overtaken.
+/// Returns the algorithm's treatment of states that newer ones have overtaken.
 [[nodiscard]] Stale stale_of(const Algorithm& algorithm);
-/// Tells it how many others there are and what this copy is like, before the first tick. Ensures
-/// check_hands_of().
+/// Gives the algorithm the number of other peers and this copy of the world, before the first tick.
+/// Ensures check_hands_of().
 void prepare(Algorithm& algorithm, std::size_t others, const scene::World& world);
-/// True if it puts the hands of the others into this copy of the scene.
+/// True if the algorithm puts the hands of the others into this copy of the scene.
 [[nodiscard]] bool has_hands_of_others(const Algorithm& algorithm);
-/// True if it can play with more than one other.
+/// True if the algorithm can play with more than one other peer.
 [[nodiscard]] bool plays_with_many(const Algorithm& algorithm);
 
-/// True if it can be played: the file of one that is no part of the program has been loaded.
+/// True if the algorithm can be played, which for a SharedObject means that its file has been
+/// loaded.
 [[nodiscard]] bool is_loaded(const Algorithm& algorithm);
 
 /// Refuses bodies that the algorithm cannot play; the error says why. Only remote-proxy and base
-/// play several bodies, or bodies that turn. For base, only those options may then differ from
-/// their defaults that also apply to such bodies.
+/// play several bodies, or bodies that turn. Base then refuses values other than the default in
+/// options that do not apply to such bodies.
 [[nodiscard]] base::Result<void> check_bodies_of(const Algorithm& algorithm,
                                                  std::span<const SharedBody> bodies);
-/// Refuses hands of the scene that the algorithm cannot play. With dry friction, which comes from
-/// outside of the scene, the scene's ticks cannot be computed late or again.
+/// Refuses hands of the scene that the algorithm cannot play. Dry friction is added from outside of
+/// the scene, so ticks of the scene with it cannot be computed late or again.
 [[nodiscard]] base::Result<void> check_hands_of(const Algorithm& algorithm,
                                                 const scene::HandDescription& hands);
 

@@ -8,18 +8,18 @@
 
 namespace hapnet::peer {
 
-/// An alpha-beta filter for samples at uneven times: the value of a signal and its slope,
-/// critically damped (P. R. Kalata: The tracking index, 1984; fading memory with the share theta =
-/// exp(-dt / time constant), N. Morrison: Introduction to sequential smoothing and prediction,
-/// 1969). It follows a ramp without lag.
+/// An alpha-beta filter for samples at irregular times. It estimates a signal and its slope, is
+/// critically damped, and follows a ramp without lag (P. R. Kalata: The tracking index, 1984;
+/// fading memory with the share theta = exp(-dt / time constant), N. Morrison: Introduction to
+/// sequential smoothing and prediction, 1969).
 class AlphaBeta {
 public:
-    /// `time_constant_s`: how long a sample counts, 0 or more.
+    /// `time_constant_s` is the time constant with which samples lose weight, 0 or more.
     explicit AlphaBeta(double time_constant_s) : time_constant_s_{time_constant_s} {}
 
-    /// Starts from this sample with no slope.
+    /// Restarts the filter from this sample with a slope of zero.
     void restart(const glm::dvec3& sample, base::TimePoint at);
-    /// A sample that is later than the last one; others are ignored.
+    /// Adds a sample. It is ignored unless it is later than the last one.
     void add(const glm::dvec3& sample, base::TimePoint at);
 
     [[nodiscard]] base::TimePoint at() const { return at_; } // time of the last sample
@@ -27,8 +27,8 @@ public:
     [[nodiscard]] const glm::dvec3& slope() const { return slope_; } // per second
 
 private:
-    /// The gains for the interval between samples. They are kept because it is mostly one tick, and
-    /// an exponential costs more than the rest.
+    /// The gains for the interval between samples. They are stored, because the interval is usually
+    /// one tick, and the exponential costs more than the rest.
     struct Gains {
         base::Duration apart{};
         double alpha = 0.0;

@@ -8,8 +8,8 @@
 
 namespace hapnet::peer {
 
-/// Makes copies agree again once no hand touches the body. Some time later, the copy that yields
-/// moves it on a straight line to where the remote has it.
+/// Makes copies agree again when no hand touches the body. After some time, the copy that yields
+/// moves its body on a straight line to the place in the remote's copy.
 class AtRest {
 public:
     struct Times {
@@ -17,24 +17,24 @@ public:
         base::Duration within{};             // duration of the motion
     };
 
-    /// A hand touches the body.
+    /// Call it while a hand touches the body. Restarts the wait.
     void interrupt()
     {
         untouched_since_.reset();
         blend_.reset();
     }
-    /// The times of base, by default.
+    /// Returns the default times of base.
     [[nodiscard]] static Times usual()
     {
         const BaseOptions base;
         return {base.settle_after, base.settle_within};
     }
-    /// True if nothing has touched it for so long that copies that yield move to the others'.
+    /// True if no hand has touched the body for so long that copies that yield move to the others'.
     [[nodiscard]] bool has_waited(base::TimePoint now, const Times& times = usual()) const
     {
         return untouched_since_ && times.after && now - *untouched_since_ >= *times.after;
     }
-    /// Returns the place for a body that no hand touches; nullopt: leave the body alone.
+    /// Returns the pose for a body that no hand touches; nullopt: do not move the body.
     [[nodiscard]] std::optional<CombinedRemote::Pose> pose(base::Position body,
                                                            const CombinedRemote& remote,
                                                            const Situation& situation,

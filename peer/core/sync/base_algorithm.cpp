@@ -14,7 +14,8 @@ void BaseAlgorithm::hear(const ReceivedState& received)
     if (options_.displacement_from != DisplacementFrom::increments) return;
     const wire::BodyState* const body = received.state.bodies.first();
     const bool counts = received.state.touching || options_.follow_while == FollowWhile::always;
-    // The body's way in the sender's tick. No message holds it, but the velocity gives it.
+    // The body's displacement in the sender's tick. Messages do not contain it, but it follows from
+    // the velocity.
     if (received.taken && body && counts) increments_ += body->velocity * received.span;
 }
 
@@ -107,7 +108,7 @@ void BaseAlgorithm::follow(scene::World& world, const Situation& situation,
     }
     const bool onward = options_.displacement == DisplacementSign::current_minus_previous;
     const double sign = onward ? 1.0 : -1.0;
-    // Instead of what this copy's own dynamics made of the tick.
+    // This replaces the result of this copy's own dynamics.
     base::Position position = place_before_ + sign * remote_moved_;
     if (options_.bleed) {
         const double constant_s = base::to_seconds(*options_.bleed);

@@ -11,29 +11,29 @@
 namespace hapnet::peer {
 
 /// The paper's hybrid algorithm, without any compensation of delay. With the default options:
-/// - this hand touches at some time of the tick: the body moves by this copy's own dynamics under
-///   the sum of the local contact force and the remote one as last received (the stronger decides
-///   the direction);
-/// - only the other hand touches: the body is where the remote last said (absolute, so that
-///   nothing accumulates);
-/// - no hand touches: the body coasts; 200 ms later the higher id blends to the lower id's pose
-///   within 100 ms, so that the copies agree again.
+/// - This hand touches the body at some time of the tick: the body moves by this copy's own
+///   dynamics. The force on it is the sum of the local contact force and the remote one as last
+///   received (the stronger decides the direction).
+/// - Only the other hand touches: the body is at the position last received from the remote. It is
+///   absolute, so that no error accumulates.
+/// - No hand touches: the body coasts. After 200 ms, the copy with the higher id blends to the pose
+///   of the lower id within 100 ms, so that the copies agree again.
 class BaseAlgorithm {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.46);
 
     BaseAlgorithm() = default;
     explicit BaseAlgorithm(const BaseOptions& options) : options_{options} {}
 
-    /// Every state of the session, in the order of arrival.
+    /// Takes every state of the session, in the order of arrival.
     void hear(const ReceivedState& received);
-    /// Moves the world by one tick.
+    /// Advances the world by one tick.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
-    /// Moves the world by one tick, with the remote as `remote` shows it.
+    /// Advances the world by one tick, with `remote` as the state of the other hands.
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation,
                                const CombinedRemote& remote);
-    /// The remote's run has ended; its next state is of another.
+    /// Forgets the remote's run, which has ended. Its next state is from a new run.
     void forget();
 
     [[nodiscard]] const BaseOptions& options() const { return options_; }
@@ -53,7 +53,7 @@ private:
     AtRest at_rest_;
     std::optional<Lead> lead_;                    // which hand leads, and since when
     double own_force_n_ = 0.0;                    // force of this hand on the body in the last tick
-    std::optional<base::Position> remote_before_; // where the remote had the body a tick ago
+    std::optional<base::Position> remote_before_; // the remote's body a tick ago
     base::Displacement increments_;               // sum of the increments heard since the last tick
     base::Displacement remote_moved_;             // remote displacement since the last tick
     base::Position place_before_;                 // place of the body before this tick

@@ -12,25 +12,26 @@
 
 namespace hapnet::peer {
 
-// The questions that the paper's pseudo-code leaves open, as far as they concern the algorithm
-// itself. The first answer of each is the default. docs/design/algorithms.md says why.
+// Options for the questions that the paper's pseudo-code leaves open, as far as they concern the
+// algorithm itself. The first value of each is the default. docs/design/algorithms.md explains why.
 
-/// The sign of a displacement: as it moves the body on, or as printed, which moves it back.
+/// The sign of a displacement: the one that moves the body forward, or the one printed in the
+/// paper, which moves it back.
 enum class DisplacementSign : std::uint8_t { current_minus_previous, previous_minus_current };
 constexpr auto names_of(base::Tag<DisplacementSign> /*enum*/)
 {
     return base::names("current-minus-previous", "previous-minus-current");
 }
 
-/// The side that forms the remote displacement: the receiver, from two absolute positions, or the
-/// sender, whose increments are lost with their messages.
+/// The peer that computes the remote displacement: the receiver, from two absolute positions, or
+/// the sender, whose increments are lost with their messages.
 enum class DisplacementFrom : std::uint8_t { positions, increments };
 constexpr auto names_of(base::Tag<DisplacementFrom> /*enum*/)
 {
     return base::names("positions", "increments");
 }
 
-/// When a body that this hand does not touch is put where the remote has it.
+/// The times at which a body that this hand does not touch is put where the remote has it.
 enum class FollowWhile : std::uint8_t { touching, always };
 constexpr auto names_of(base::Tag<FollowWhile> /*enum*/)
 {
@@ -40,18 +41,18 @@ constexpr auto names_of(base::Tag<FollowWhile> /*enum*/)
 enum class Follow : std::uint8_t { absolute, relative };
 constexpr auto names_of(base::Tag<Follow> /*enum*/) { return base::names("absolute", "relative"); }
 
-/// The place where the remote hand's force acts; on the hand it counts twice.
+/// The place where the remote hand's force acts. On the hand, it counts twice.
 enum class RemoteForceOn : std::uint8_t { body, body_and_hand };
 constexpr auto names_of(base::Tag<RemoteForceOn> /*enum*/)
 {
     return base::names("body", "body-and-hand");
 }
 
-/// The force that moves a body pushed by both: the sum, or the stronger hand's alone.
+/// The force that moves a body pushed by both hands: the sum, or that of the stronger hand alone.
 enum class BothPush : std::uint8_t { sum, stronger };
 constexpr auto names_of(base::Tag<BothPush> /*enum*/) { return base::names("sum", "stronger"); }
 
-/// Along what the remote side acts on this copy.
+/// The axes along which the remote side acts on this copy.
 enum class Axes : std::uint8_t { all, x };
 constexpr auto names_of(base::Tag<Axes> /*enum*/) { return base::names("all", "x"); }
 
@@ -60,28 +61,28 @@ struct BaseOptions {
     DisplacementFrom displacement_from = DisplacementFrom::positions;
     FollowWhile follow_while = FollowWhile::touching;
     Follow follow = Follow::absolute;
-    /// The time constant with which a body that follows relatively is drawn to where the other
-    /// side has it; nullopt: never.
+    /// The time constant with which a body with relative following is drawn to the place that the
+    /// other peer has for it; nullopt: never.
     std::optional<base::Duration> bleed{std::chrono::milliseconds{500}};
     RemoteForceOn remote_force_on = RemoteForceOn::body;
     BothPush both_push = BothPush::sum;
-    /// The least time for which the stronger hand keeps the body. Never less than the round trip,
-    /// which is twice the delay.
+    /// The least time for which the stronger hand keeps the body. It is never less than the round
+    /// trip, which is twice the delay.
     base::Duration hysteresis{0};
     Stale stale = Stale::drop;
-    /// The remote hand counts as off the body after this silence; nullopt: its last state holds
-    /// until it is stale.
+    /// The silence after which the remote hand counts as off the body; nullopt: its last state is
+    /// used until it is stale.
     std::optional<base::Duration> let_go_after{};
     Axes axes = Axes::all;
-    /// The time from when both hands are off until the higher id's body begins to go to the lower
-    /// id's place; nullopt: never.
+    /// The time from the moment when both hands are off the body until the copy of the higher id
+    /// begins to move to that of the lower id; nullopt: never.
     std::optional<base::Duration> settle_after{std::chrono::milliseconds{200}};
     base::Duration settle_within{std::chrono::milliseconds{100}};
 
     friend bool operator==(const BaseOptions&, const BaseOptions&) = default;
 };
 
-/// The longest time that a parameter of an algorithm may be.
+/// The allowed range of times that are parameters of algorithms.
 inline constexpr base::Time parameter_time{base::Duration{0}, std::chrono::seconds{10}};
 
 constexpr auto fields_of(base::Tag<BaseOptions> /*struct*/)

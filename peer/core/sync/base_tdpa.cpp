@@ -54,7 +54,7 @@ Outcome BaseTdpa::tick(scene::World& world, const Situation& situation)
         follows_ = remote.touching;
         return outcome;
     }
-    // The body comes into this hand with the motion that others gave it.
+    // The body comes to this hand with the kinetic energy that others gave it.
     if (follows_) observed_j_ -= 0.5 * mass_kg * glm::dot(velocity.value, velocity.value);
     follows_ = false;
     const base::Displacement moved = world.position(situation.body) - before;

@@ -27,28 +27,28 @@ constexpr auto fields_of(base::Tag<BaseTdpaOptions> /*struct*/)
                         base::part(&Options::base));
 }
 
-/// The base algorithm under a time-domain passivity controller (Hannaford and Ryu 2002; with two
-/// ports and a delay between them Ryu, Artigas and Preusche 2010). The observer compares what the
-/// other hands have put into their devices, as their running sums of work say, with what their
-/// forces have put into this copy; where that is more, the controller damps the body. It trusts no
+/// The base algorithm with a time-domain passivity controller (Hannaford and Ryu 2002; with two
+/// ports and a delay between them Ryu, Artigas and Preusche 2010). The observer compares the work
+/// that the other hands have put into their devices, by their running sums, with the work of their
+/// forces in this copy. While the latter is greater, the controller damps the body. It relies on no
 /// model and no clock. docs/design/algorithms.md has the equations.
 class BaseTdpa {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.5, 0.2);
 
     BaseTdpa() = default;
     explicit BaseTdpa(const BaseTdpaOptions& options) : options_{options}, base_{options.base} {}
 
-    /// Takes the memory for this number of others.
+    /// Allocates the memory for this number of other peers.
     void prepare(std::size_t others) { work_uj_.assign(others, std::nullopt); }
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const BaseTdpaOptions& options() const { return options_; }
-    /// The energy that the others have put in and this copy has not got, J; below 0 while damping
-    /// is due.
+    /// Returns the energy that the others have put in and this copy has not received, in J. It is
+    /// negative while damping is due.
     [[nodiscard]] double observed_j() const { return observed_j_; }
 
 private:
@@ -57,7 +57,7 @@ private:
 
     BaseTdpaOptions options_;
     BaseAlgorithm base_;
-    std::vector<std::optional<std::uint32_t>> work_uj_; // work of each of the others, as last heard
+    std::vector<std::optional<std::uint32_t>> work_uj_; // the last received work of each other peer
     double observed_j_ = 0.0;
     bool follows_ = false; // only other hands touched the body in the last tick
 };

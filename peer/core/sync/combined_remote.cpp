@@ -6,7 +6,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// Adds one of the others to those before it.
+/// Adds one of the others to the combined remote.
 void add(CombinedRemote& combined, const Remote& remote, const Situation& situation,
          const BaseOptions& options)
 {
@@ -22,8 +22,8 @@ void add(CombinedRemote& combined, const Remote& remote, const Situation& situat
     combined.touching = true;
 }
 
-/// Returns where those who touch have the body, on average. If no hand touches it, where `remote`
-/// has it.
+/// Returns the average of the poses that the touching peers have for the body. If no hand touches
+/// it, returns the pose that `remote` has.
 std::optional<CombinedRemote::Pose> pose_of(const Situation& situation, bool touching)
 {
     if (situation.others.size() > 1 && touching) {

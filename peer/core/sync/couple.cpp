@@ -39,7 +39,8 @@ void Couple::hear(const ReceivedState& received)
     spring.ages.add(base::to_seconds(delay));
 }
 
-/// Draws a spring to where its owner has the body, as far as the tank allows; nullptr: to nowhere.
+/// Stretches a spring to the place where its owner has the body, as far as the tank allows. If
+/// `owner` is nullptr, the spring is released.
 void Couple::draw(Spring& spring, const Remote* owner, const Situation& situation,
                   const scene::World& world)
 {
@@ -68,14 +69,15 @@ void Couple::draw(Spring& spring, const Remote* owner, const Situation& situatio
     spring.force = spring.stiffness_n_per_m * spring.stretch;
 }
 
-/// Settles the accounts of a tick: the body came nearer to where the springs draw it, and its drag
-/// took at least drag * moved^2 / tick out of it.
+/// Updates the energies after a tick: the body has moved toward the ends of the springs, and its
+/// drag has dissipated at least drag * moved^2 / tick.
 void Couple::settle_accounts(const glm::dvec3& moved, double drag, double tick_s)
 {
     const double square = glm::dot(moved, moved);
     const double dissipated_j = drag * square / tick_s / static_cast<double>(springs_.size());
     for (Spring& spring : springs_) {
-        // A force that is held for a tick gives more than the spring loses: the second term.
+        // A force that is constant during a tick does more work than the spring loses; hence the
+        // second term.
         const double given_j = glm::dot(spring.force, moved);
         const double before_j = spring.stored_j();
         spring.stretch -= moved;
@@ -88,7 +90,7 @@ Outcome Couple::tick(scene::World& world, const Situation& situation)
 {
     const CombinedRemote remote = combined_remote(situation, BaseOptions{});
     const base::Position before = world.position(situation.body);
-    // Once all hands are off one copy goes to the other, and no spring draws that one meanwhile.
+    // Once all hands are off, one copy moves to the other, and no spring acts in either copy.
     std::optional<CombinedRemote::Pose> rest;
     if (world.touch(own_hand).touching || remote.touching) {
         at_rest_.interrupt();

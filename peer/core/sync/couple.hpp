@@ -30,21 +30,21 @@ constexpr auto fields_of(base::Tag<CoupleOptions> /*struct*/)
                     "and what it begins with"));
 }
 
-/// The copies of the body hang together by springs to where the others last said theirs to be
+/// Couples the copies of the body by springs to the last received places of the other copies
 /// (virtual coupling of copies: Lee and Huang 2010, Sankaranarayanan and Hannaford 2008). A spring
-/// is drawn out to a new place only as far as its tank has energy (passive set-position
-/// modulation), and the tank fills from what this body's drag dissipates: passive for any network
-/// and number of peers, and soft. A scene whose body has no drag gives no coupling.
-/// docs/design/algorithms.md has the equations.
+/// is stretched to a new place only as far as the energy in its tank allows (passive set-position
+/// modulation). The tank is filled by the energy that this body's drag dissipates. The coupling is
+/// soft, and passive for any network and any number of peers. If the scene's body has no drag,
+/// there is no coupling. docs/design/algorithms.md has the equations.
 class Couple {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.7);
 
     Couple() : Couple(CoupleOptions{}) {}
     explicit Couple(const CoupleOptions& options) : options_{options} {}
 
-    /// Takes the memory for this number of others.
+    /// Allocates the memory for this number of other peers.
     void prepare(std::size_t others);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
@@ -54,12 +54,12 @@ public:
 
     /// The spring to the copy of one of the others.
     struct Spring {
-        std::optional<base::TimePoint> sent_at; // newest message's send time, on this peer's clock
+        std::optional<base::TimePoint> sent_at; // send time of the newest message, own clock
         RecentAge ages;
         double stiffness_n_per_m = 0.0;
-        glm::dvec3 stretch{0.0}; // from this body to where the spring draws it
+        glm::dvec3 stretch{0.0}; // from this body to the spring's end
         double tank_j = 0.0;
-        glm::dvec3 force{0.0}; // force in this tick
+        glm::dvec3 force{0.0}; // force in the present tick
 
         [[nodiscard]] double stored_j() const;
     };

@@ -52,7 +52,7 @@ void DeadReckoning::hear(const ReceivedState& received)
     if (!received.taken) return;
     const wire::BodyState* const body = received.state.bodies.first();
     if (body == nullptr && !newest_) return;
-    // A message without a body says that nothing moves it.
+    // A message without a body means that nothing moves the body.
     const Fix fix{.place = body != nullptr ? body->position : newest_->place,
                   .arrived = received.arrived,
                   .sent = received.state.sent,
@@ -79,7 +79,7 @@ base::Velocity DeadReckoning::velocity_to(const Fix& next, base::Duration span) 
     base::Duration apart = span;
     if (options_.velocity == VelocityRule::arrival) apart = next.arrived - newest_->arrived;
     if (options_.velocity == VelocityRule::sender) apart = sent_apart;
-    // Arrived at once, or a duplicate: no time has passed that tells of a velocity.
+    // No velocity can be computed from states without a time between them, such as duplicates.
     const bool tells = options_.velocity == VelocityRule::sender ? apart != base::Duration{0}
                                                                  : apart > base::Duration{0};
     if (!tells) return velocity_;
@@ -115,7 +115,7 @@ Outcome DeadReckoning::tick(scene::World& world, const Situation& situation)
         if (options_.blend_within) remote.pose->position = blended(*place, world, situation);
     }
     const Outcome outcome = base_.tick(world, situation, remote);
-    // The blend begins again from where this hand has left the body.
+    // The blend restarts from the place where this hand has left the body.
     if (outcome.touched.touching || !remote.touching) course_.reset();
     has_news_ = false;
     return outcome;

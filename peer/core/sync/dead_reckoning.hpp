@@ -10,18 +10,18 @@
 
 namespace hapnet::peer {
 
-/// The time between two consecutive states in the velocity's computation. Nominal: one tick,
-/// whatever was lost between them (the paper). Otherwise the time between their arrivals, or
-/// between their stamps.
+/// The time between two consecutive states that the velocity is computed with. Nominal: one tick,
+/// even if messages between them were lost (the paper). Otherwise it is the time between their
+/// arrivals, or between their stamps.
 enum class VelocityRule : std::uint8_t { nominal, arrival, sender };
 constexpr auto names_of(base::Tag<VelocityRule> /*enum*/)
 {
     return base::names("nominal", "arrival", "sender");
 }
 
-/// The age of a body's place when its message arrives. None: it counts as new. Otherwise it is the
-/// path's mean one-way delay, which varies slowly; the age by this very message's stamp; or a fixed
-/// time.
+/// The assumed age of a body's position when its message arrives. None: its age counts as zero.
+/// Otherwise it is the path's mean one-way delay, which varies slowly; the age by the stamp of this
+/// message; or a fixed time.
 struct Horizon {
     enum class Law : std::uint8_t { none, one_way, packet_age, fixed };
 
@@ -33,7 +33,7 @@ struct Horizon {
 /// The names of the laws. A fixed horizon has no name and is written as its time.
 inline constexpr auto horizon_names = base::names("none", "one-way", "packet-age");
 
-/// A horizon as it is written: "one-way", or a time.
+/// The format of a horizon: "one-way", or a time.
 struct HorizonFormat {
     void read(const base::Node& node, Horizon& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const Horizon& horizon) const;
@@ -44,16 +44,16 @@ struct DeadReckoningOptions {
     VelocityRule velocity = VelocityRule::nominal;
     Horizon horizon{};
     std::uint32_t horizon_memory = 500; // messages in the mean delay
-    /// The time in which a new prediction takes over from the last one (projective velocity
-    /// blending; E. Murphy: Believable dead reckoning for networked games, 2011); nullopt: at once.
+    /// The time in which a new prediction replaces the last one (projective velocity blending; E.
+    /// Murphy: Believable dead reckoning for networked games, 2011); nullopt: at once.
     std::optional<base::Duration> blend_within{};
-    /// The longest time that is predicted, from the sending of a message on; nullopt: no limit.
+    /// The longest time of a prediction, measured from the sending of a message; nullopt: no limit.
     std::optional<base::Duration> ahead_max{};
     /// The limit of the estimated velocity. A hand reaches 0.3 m/s in the paper's task, which the
     /// nominal rule multiplies by the number of ticks between two messages: 60 at 80 % loss.
     double speed_max_m_per_s = 100.0;
-    double lead_max_m = 1.0; // farthest that a prediction may lie from the received place
-    /// Across a longer gap between two messages, by their sender's stamps, there is no velocity.
+    double lead_max_m = 1.0; // greatest distance of a prediction from the received place
+    /// The gap between two messages, by the sender's stamps, above which no velocity is computed.
     base::Duration gap_max{std::chrono::milliseconds{250}};
     BaseOptions base{};
 
@@ -88,14 +88,15 @@ constexpr auto fields_of(base::Tag<DeadReckoningOptions> /*struct*/)
         base::part(&Options::base));
 }
 
-/// The paper's dead reckoning: the base algorithm, with the remote's body where it should be by
-/// now, from its last two places by a first-order prediction,
+/// The paper's dead reckoning: the base algorithm with a first-order prediction of the remote's
+/// body from its last two positions,
 ///     x^ = x_k + v (t - t_arrived,k + H),  v = (x_k - x_k-1) / dt.
-/// It stands for the received place wherever that is used: while only the other hand touches, and
-/// as where a body at rest settles. Forces and velocities are as received.
+/// The prediction replaces the received position wherever that is used: while only the other hand
+/// touches, and as the place where a body at rest settles. Forces and velocities are used as
+/// received.
 class DeadReckoning {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(1.1);
 
     DeadReckoning() : DeadReckoning(DeadReckoningOptions{}) {}
@@ -106,9 +107,10 @@ public:
     void forget();
 
     [[nodiscard]] const DeadReckoningOptions& options() const { return options_; }
-    /// The remote's body extrapolated to `now`; nullopt before its first state.
+    /// Returns the position of the remote's body, extrapolated to `now`; nullopt before its first
+    /// state.
     [[nodiscard]] std::optional<base::Position> predicted(base::TimePoint now) const;
-    /// H for the newest message.
+    /// Returns H for the newest message.
     [[nodiscard]] base::Duration horizon() const;
 
 private:
@@ -119,7 +121,7 @@ private:
         base::TimePoint sent;
         base::Duration age{}; // age at arrival; 0 while the clocks are unknown
     };
-    /// A prediction that another takes over from.
+    /// A prediction, which is kept while a newer one replaces it.
     struct Course {
         base::Position from;
         base::Velocity velocity;
@@ -133,12 +135,12 @@ private:
     DeadReckoningOptions options_;
     BaseAlgorithm base_;
     OneWayDelay delay_;
-    bool is_clock_known_ = false; // the remote's clock was known when the newest message came
+    bool is_clock_known_ = false; // the clock was known when the newest message arrived
     std::optional<Fix> newest_;
     base::Velocity velocity_;
     std::optional<Course> course_; // replaced prediction, while the body follows with a blend
     Course shown_;                 // blended prediction of the last tick
-    bool has_news_ = false;        // a message was taken since the last tick
+    bool has_news_ = false;        // a message was used since the last tick
 };
 
 } // namespace hapnet::peer

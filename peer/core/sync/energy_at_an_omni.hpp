@@ -6,10 +6,10 @@
 
 namespace hapnet::peer {
 
-/// The energy that a session with an algorithm may bring into a hand at an Omni: above what nominal
-/// hands need, by the guard's own estimate of the power. docs/design/governor.md has the figures.
-/// 0.149 J in 5 s, where an algorithm names no other work: the last tick of an attack may go 0.2 mJ
-/// beyond.
+/// Returns the energy that a session with an algorithm may bring into a hand at an Omni. It is
+/// above what nominal hands need, by the guard's own estimate of the power. docs/design/governor.md
+/// has the figures. An algorithm that names no other work has 0.149 J in 5 s, because the last tick
+/// of an attack may exceed the limit by 0.2 mJ.
 [[nodiscard]] constexpr device::EnergyLimits energy_at_an_omni(double power_max_w,
                                                                double work_max_j = 0.149)
 {

@@ -33,7 +33,7 @@ void EstimatorPredictor::hear(const ReceivedState& received)
     const wire::State& state = received.state;
     const bool starts = !has_heard_ || state.sent - hip_.at() > options_.gap_max;
     sample_ = base::limited(state.contact_force, received.force_max_n);
-    // A force begins and ends with a step, which is no slope to go on with.
+    // A force begins and ends with a step, whose slope must not be extrapolated.
     if (starts || state.touching != touching_) {
         force_.restart(sample_.value, state.sent);
         force_shown_.reset();
@@ -79,7 +79,7 @@ Outcome EstimatorPredictor::tick(scene::World& world, const Situation& situation
 EstimatorPredictor::Ahead EstimatorPredictor::ahead(const Situation& situation) const
 {
     if (!has_heard_) return {};
-    // The age of the last sample; counted from its arrival when the remote's clock is unknown.
+    // The age of the last sample. It counts from the arrival if the remote's clock is unknown.
     const auto clock = situation.clock.estimate();
     const base::Duration age =
         clock ? (situation.now - hip_.at()) + clock->offset : situation.now - arrived_;
@@ -106,7 +106,7 @@ base::Force EstimatorPredictor::force(const Situation& situation, double ahead_s
         const double step = options_.force_slew_n_per_s * base::to_seconds(situation.tick);
         given = *force_shown_ + base::limited(wanted - *force_shown_, step);
     }
-    // Never against the last sample's direction, nor more than a contact can exert.
+    // The force is never opposite to the last sample, nor greater than that of a contact.
     const double length = base::norm(sample_);
     if (!(length > 0.0)) return {};
     const glm::dvec3 direction = sample_.value / length;

@@ -14,15 +14,16 @@ namespace hapnet::peer {
 struct EstimatorPredictorOptions {
     base::Duration time_constant{std::chrono::milliseconds{10}}; // for both filters
     base::Duration force_ahead_max{std::chrono::milliseconds{10}};
-    /// The hand's place is predicted by at most the median delay plus this.
+    /// The longest prediction of the hand's place, in addition to the median delay.
     base::Duration hip_ahead_beyond_delay{std::chrono::milliseconds{20}};
-    /// A sample older than the median delay plus this is extrapolated less and less.
+    /// The age, in addition to the median delay, above which a sample is extrapolated less and
+    /// less.
     base::Duration fade_after{std::chrono::milliseconds{10}};
-    base::Duration fade_within{std::chrono::milliseconds{50}}; // until no extrapolation is left
-    /// The output changes by at most this: people notice steps from 0.5 N a tick on.
+    base::Duration fade_within{std::chrono::milliseconds{50}}; // until nothing is extrapolated
+    /// The greatest rate of change of the output. People notice steps of 0.5 N a tick or more.
     double force_slew_n_per_s = 500.0;
     double hip_slew_m_per_s = 5.0;
-    /// The gap between two messages after which the filters start again.
+    /// The gap between two messages above which the filters restart.
     base::Duration gap_max{std::chrono::milliseconds{250}};
     BaseOptions base{};
 
@@ -56,12 +57,13 @@ constexpr auto fields_of(base::Tag<EstimatorPredictorOptions> /*struct*/)
         base::part(&Options::base));
 }
 
-/// SEP, the synchronised estimator and predictor: the base algorithm with the remote hand's force
-/// and place predicted to now from their senders' stamps by alpha-beta filters. It stands in for
-/// TiDeC, of which no equations are published, and like it leaves the body's pose alone.
+/// SEP, the synchronised estimator and predictor: the base algorithm with a prediction of the
+/// remote hand's force and position. Alpha-beta filters extrapolate both from their senders' stamps
+/// to the present. It stands in for TiDeC, of which no equations are published, and like TiDeC does
+/// not change the body's pose.
 class EstimatorPredictor {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(1.1);
 
     EstimatorPredictor() : EstimatorPredictor(EstimatorPredictorOptions{}) {}
@@ -91,7 +93,7 @@ private:
     AlphaBeta hip_;
     base::Force sample_;      // limited force of the newest sample
     base::TimePoint arrived_; // arrival of the newest sample
-    bool touching_ = false;   // the hand touched in the newest sample
+    bool touching_ = false;   // the hand touched the body in the newest sample
     bool has_heard_ = false;
     std::optional<base::Force> force_shown_; // predicted force of the last tick
     std::optional<base::Position> hip_shown_;

@@ -8,8 +8,8 @@ namespace hapnet::peer {
 
 namespace {
 
-// A function of its own: where GCC 12 puts two of three such conversions into one vector, it leaves
-// out the rounding of those two.
+// This is a separate function, because GCC 12 omits the rounding when it vectorises two of three
+// such conversions.
 [[gnu::noinline]] double as_sent(double component)
 {
     return static_cast<double>(static_cast<float>(component));
@@ -17,8 +17,8 @@ namespace {
 
 glm::dvec3 as_sent(const glm::dvec3& v) { return {as_sent(v.x), as_sent(v.y), as_sent(v.z)}; }
 
-/// True for the state that stands for a hand without a sample: exactly at the origin, at rest. A
-/// hand that is there never has it, to the bit.
+/// True for the state that represents a hand without a sample: exactly at the origin, at rest. A
+/// present hand never has exactly this state.
 bool is_nowhere(const HandSample& sample)
 {
     return sample.place == glm::dvec3{0.0} && sample.velocity == glm::dvec3{0.0};
@@ -101,7 +101,7 @@ HandSample HandHistory::between(std::int64_t tick, double tick_s) const
 std::optional<std::int64_t> answered_tick(const ReceivedState& received)
 {
     const auto& echo = received.state.echo;
-    // An answer to a hello of before the start tells of no tick.
+    // An answer to a hello from before the start refers to no tick.
     if (!echo || echo->of < received.start) return std::nullopt;
     return static_cast<std::int64_t>((echo->of - received.start) / received.tick);
 }

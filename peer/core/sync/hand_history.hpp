@@ -12,8 +12,8 @@
 
 namespace hapnet::peer {
 
-/// A hand at a tick of the session, as a message has it: of four bytes a coordinate. So who sends
-/// it and who receives it put the same bits into their copies.
+/// A hand at a tick of the session, with the precision of a message: four bytes a coordinate. So
+/// the sender and the receivers use exactly the same bits in their copies.
 struct HandSample {
     glm::dvec3 place{0.0};
     glm::dvec3 velocity{0.0};
@@ -21,14 +21,14 @@ struct HandSample {
     bool gripping = false;
 
     [[nodiscard]] static HandSample of(const scene::HandInput& input);
-    /// Its `holding` is taken to say that the hand grips: see says_grip(). A hand without a usable
-    /// sample is said to be at the origin, at rest.
+    /// Returns the sample in a message. Its `holding` means that the hand grips: see says_grip(). A
+    /// hand without a usable sample is sent as at rest at the origin.
     [[nodiscard]] static HandSample of(const wire::State& state);
     [[nodiscard]] scene::HandInput input() const;
 };
 
-/// Where a hand was, tick by tick, as far as it is known: the last second of it. Takes memory when
-/// it is made, and none later.
+/// The known positions of a hand, tick by tick, during the last second. All memory is allocated at
+/// construction.
 class HandHistory {
 public:
     static constexpr std::int64_t ticks_max = 1024;
@@ -42,9 +42,9 @@ public:
     [[nodiscard]] bool is_empty() const { return newest_ == none; }
     [[nodiscard]] std::int64_t newest() const { return newest_; }
     [[nodiscard]] bool knows(std::int64_t tick) const;
-    /// Returns the hand at a tick. A missing sample between two known ones lies on the cubic that
-    /// has the places and velocities of both (Hermite). After the newest sample the hand stays
-    /// there at rest. Before the first one it is not present. `length`: the length of a tick.
+    /// Returns the hand at a tick. `length` is the length of a tick. A missing sample between two
+    /// known ones is interpolated by the cubic with the positions and velocities of both (Hermite).
+    /// After the newest sample the hand rests there. Before the first one it is not present.
     [[nodiscard]] HandSample at(std::int64_t tick, base::Duration length) const;
 
 private:
@@ -63,35 +63,35 @@ private:
     std::int64_t newest_ = none;
 };
 
-/// Says to the others, by what the message has as `holding`, whether this hand grips: they find out
-/// themselves whether it holds anything. A message can say so only of a hand that touches: one that
-/// grips is said to.
+/// Sets what the message tells of the grip: `holding` means that this hand grips, because the
+/// receivers find out themselves if it holds a body. A message can have `holding` only with
+/// `touching`, so a hand that grips counts as touching.
 inline void says_grip(scene::HandTouch& touched, const HandSample& own)
 {
     touched.holding = own.present && own.gripping;
     touched.touching = touched.touching || touched.holding;
 }
 
-/// The hand of another peer, by ticks of the session, and what its newest message tells of its
-/// copy.
+/// The hand of another peer, by ticks of the session, with the state of that peer's copy from its
+/// newest message.
 struct HeardHand {
     HandHistory history;
     SessionTicks ticks;
-    /// The body as the peer last told it. `knows` covers only this peer's hand.
+    /// The body as the peer has last sent it. `knows` covers only this peer's hand.
     std::optional<RestAgreement::Word> told;
 
-    /// The tick of which a message tells; nullopt while the clocks are unknown, or when that is
-    /// still to come.
+    /// Takes a message and returns the tick that it describes; nullopt while the clocks are
+    /// unknown, or if that tick is in the future.
     [[nodiscard]] std::optional<std::int64_t> hear(const ReceivedState& received);
     void forget();
 };
 
-/// The tick of this peer's newest message that the sender of that one had; nullopt: none of the
-/// session.
+/// Returns the tick of this peer's newest message that the sender had received; nullopt if it had
+/// none of the session.
 [[nodiscard]] std::optional<std::int64_t> answered_tick(const ReceivedState& received);
 
-/// The scene's hands by the ranks of their peers, so that all copies have them in the same order:
-/// equal inputs make equal bits.
+/// Return the indices of hands in the scene by the ranks of their peers. All copies then have the
+/// hands in the same order, so that equal inputs give equal bits.
 [[nodiscard]] inline std::uint32_t own_hand_by_rank(const Situation& situation)
 {
     return static_cast<std::uint32_t>(situation.lower_ids);

@@ -12,7 +12,7 @@ void Lag::hear(const ReceivedState& received)
     RemoteHand& hand = hands_[received.from];
     const auto tick = hand.heard.hear(received);
     if (!tick) return;
-    // A message that was overtaken is as useful as any: it tells of another tick.
+    // An overtaken message is as useful as any other, because it describes another tick.
     if (!hand.heard.history.add(*tick, HandSample::of(received.state))) return;
     if (!received.taken) return;
     if (const auto answered = answered_tick(received)) hand.ages_there.add(*tick - *answered);
@@ -36,7 +36,7 @@ void Lag::note_ages(const Situation& situation, std::int64_t now)
     }
 }
 
-/// The lag goes up at once, and down as slowly as time may run faster.
+/// Updates the lag. It increases at once, and decreases as slowly as time may run faster.
 void Lag::follow(const Situation& situation)
 {
     constexpr std::int64_t looks_every = 10; // ticks
@@ -53,7 +53,7 @@ void Lag::follow(const Situation& situation)
     lag_ = std::max(goal, lag_ - options_.catch_up * looks_every);
 }
 
-/// True if everybody is heard whose hand may come into the first ticks.
+/// True if all peers are heard whose hands may appear in the first ticks.
 bool Lag::is_ready(const Situation& situation) const
 {
     if (has_begun_ || situation.now - situation.start > waits_for) return true;
@@ -61,7 +61,7 @@ bool Lag::is_ready(const Situation& situation) const
         hands_, [](const RemoteHand& hand) { return hand.heard.history.is_empty(); });
 }
 
-/// One tick of the session.
+/// Plays one tick of the session.
 void Lag::play(scene::World& world, const Situation& situation)
 {
     ++played_;
@@ -80,14 +80,14 @@ void Lag::play(scene::World& world, const Situation& situation)
     }
 }
 
-/// Makes copies agree that differ because messages were missing. The one that yields goes to where
-/// the other rests, in as many ticks as base does.
+/// Makes copies agree that differ because messages were lost. The copy that yields moves to the
+/// place of the other at rest, in as many ticks as base takes.
 void Lag::rest(const Situation& situation)
 {
     const auto leader = yields_to(situation);
     if (!leader || !hands_[*leader].heard.told) return;
     RestAgreement::Word word = *hands_[*leader].heard.told;
-    // In a pair both know the same ages, and so have about the same lag.
+    // In a pair, both peers know the same ages, and so have about the same lag.
     constexpr std::int64_t about = 10; // ticks
     const bool is_pair = hands_.size() == 1;
     word.knows = word.tick - (is_pair ? lag_ticks() + about : HandHistory::ticks_max);

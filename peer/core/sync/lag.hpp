@@ -36,34 +36,34 @@ constexpr auto fields_of(base::Tag<LagOptions> /*struct*/)
                     "the greatest lag; at most 1000 ticks count"));
 }
 
-/// Local lag (Mauve et al. 2004): every copy plays the session so late that the messages of all
-/// hands are there in time, and its own hand acts as late as the others' do. Each tick of the
-/// session is computed once, from the hands of that tick: where no message is missing, all copies
-/// make the same bits of it. The hand feels its contact late, and therefore softly.
-/// docs/design/algorithms.md has the equations.
+/// Local lag (Mauve et al. 2004): every copy plays the session with such a delay that the messages
+/// of all hands arrive in time, and delays its own hand equally. Each tick of the session is
+/// computed once, from the hands of that tick. If no message is missing, all copies compute
+/// identical bits. The hand feels its contact late, and therefore softly. docs/design/algorithms.md
+/// has the equations.
 class Lag {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.25);
 
     Lag() : Lag(LagOptions{}) {}
     explicit Lag(const LagOptions& options) : options_{options} {}
 
-    /// Takes the memory for this number of others.
+    /// Allocates the memory for this number of other peers.
     void prepare(std::size_t others) { hands_.resize(others); }
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const LagOptions& options() const { return options_; }
-    /// The lag in ticks.
+    /// Returns the lag in ticks.
     [[nodiscard]] double lag() const { return lag_; }
-    /// The tick of the session that this copy has played last; -1: none.
+    /// Returns the tick of the session that this copy has played last; -1: none.
     [[nodiscard]] std::int64_t played() const { return played_; }
 
-    /// The time for which the copy waits for a peer that was never heard.
+    /// The time for which the copy waits for a peer that has never been heard.
     static constexpr base::Duration waits_for{std::chrono::seconds{1}};
-    /// The greatest number of the session's ticks that are played in one tick.
+    /// The greatest number of ticks of the session that one tick plays.
     static constexpr int together_max = 2;
 
 private:
@@ -94,8 +94,8 @@ private:
     std::optional<std::int64_t> first_; // session number of this peer's first tick
     bool has_begun_ = false;
     RestAgreement rest_;
-    base::Displacement way_a_tick_; // step in each tick toward the resting other copy
-    std::int64_t way_ticks_ = 0;    // ticks left until the body is there
+    base::Displacement way_a_tick_; // step per tick toward the other copy at rest
+    std::int64_t way_ticks_ = 0;    // ticks left until the body has arrived
 };
 
 } // namespace hapnet::peer

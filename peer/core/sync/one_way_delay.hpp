@@ -9,21 +9,22 @@
 
 namespace hapnet::peer {
 
-/// The one-way delay of a path as its messages tell it: slowly varying, so that a single early or
-/// late message moves it little. All messages count, also those that came too late to be used: it
-/// is the path's delay and not that of the survivors.
+/// The one-way delay of a path, from its messages. It varies slowly, so that a single early or late
+/// message hardly changes it. All messages count, even those that arrive too late to be used,
+/// because it is the delay of the path and not only of the used messages.
 class OneWayDelay {
 public:
-    /// `memory`: number of messages in the mean, at least 1.
+    /// `memory` is the number of messages in the mean, at least 1.
     explicit OneWayDelay(std::uint32_t memory) : memory_{memory} {}
 
     void add(base::Duration delay);
 
-    /// The arithmetic mean of the first messages, then an exponential mean. It is never negative,
-    /// and zero while nothing is known.
+    /// Returns the arithmetic mean of the first messages, and after that an exponential mean. It is
+    /// never negative, and zero while nothing is known.
     [[nodiscard]] base::Duration mean() const;
-    /// Moves by at most 0.1 ms a message toward the median (H. Robbins, S. Monro: A stochastic
-    /// approximation method, 1951): a bound of what is usual, not a measurement.
+    /// Returns an estimate of the median, which moves toward it by at most 0.1 ms a message (H.
+    /// Robbins, S. Monro: A stochastic approximation method, 1951). Use it as a bound of usual
+    /// delays, not as a measurement.
     [[nodiscard]] base::Duration median() const;
 
     void reset() { *this = OneWayDelay{memory_}; }

@@ -14,27 +14,28 @@
 
 namespace hapnet::peer {
 
-/// A set of shared bodies: bit i is the i-th.
+/// A set of shared bodies: bit i stands for the i-th.
 using BodySet = std::uint8_t;
 static_assert(wire::bodies_max <= 8);
 
-/// Says whose copy of a body the others take over while no hand moves it. At first it is the copy
-/// of the peer whose hand moved it last, which has seen the motion begin without a delay. Some time
-/// later it is that of the lowest id, on which all agree whatever they have heard. Peers that moved
-/// it at nearly the same time cannot all know which was the last: among those it is the lowest id
-/// at once.
+/// Decides whose copy of a body the others take over while no hand moves it. At first it is the
+/// copy of the peer whose hand moved it last, which saw the motion begin without a delay. Some time
+/// later it is that of the lowest id, on which all agree whatever messages they received. Peers
+/// that moved it at nearly the same time cannot all know which was the last, so among those it is
+/// the lowest id at once.
 class Ownership {
 public:
-    /// Touches less than this apart count as simultaneous: it is longer than two messages take.
+    /// Touches that are less than this apart count as simultaneous. The time is longer than two
+    /// messages take.
     static constexpr base::Duration same_time{std::chrono::milliseconds{500}};
-    /// The time for which the copy of the last toucher counts, from that touch on.
+    /// The time from a touch during which the copy of the last toucher is authoritative.
     static constexpr base::Duration lasts{std::chrono::seconds{1}};
 
-    /// A peer's hand moves these bodies.
+    /// Notes that a peer's hand moves these bodies.
     void touch(BodySet bodies, std::uint16_t peer, base::TimePoint now);
 
-    /// Returns the owner of bodies that touch each other. `present`: the ids that may own,
-    /// ascending. There is at least one.
+    /// Returns the owner of bodies that touch each other. `present` has the ids of the possible
+    /// owners, ascending, at least one.
     [[nodiscard]] std::uint16_t owner(BodySet bodies, std::span<const std::uint16_t> present,
                                       base::TimePoint now) const;
 

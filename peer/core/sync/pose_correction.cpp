@@ -11,7 +11,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// The step of a tick toward zero error, at a rate, and no faster than `most`.
+/// Returns the step of a tick toward zero error, at a rate, and limited to the speed `most`.
 glm::dvec3 step_for(const glm::dvec3& error, double rate_hz, double most, double tick_s)
 {
     return tick_s * base::limited(base::Velocity{rate_hz * error}, most).value;
@@ -67,8 +67,8 @@ double PoseCorrection::keep_together(const Copy& copy)
     return given_j;
 }
 
-/// Follows the leader's pose, but not before the leader has told of a touch that is later than this
-/// hand's last one: until then this copy knows more.
+/// Follows the leader's pose, but only after the leader has reported a touch that is later than
+/// this hand's last one. Until then this copy is more up to date.
 double PoseCorrection::follow(const Copy& copy, std::size_t body, std::size_t leader)
 {
     const SharedPoses& poses = *copy.situation.poses;
@@ -106,8 +106,8 @@ double PoseCorrection::settle(const Copy& copy, std::size_t body)
 }
 
 /// Returns the difference of this copy's body from the owner's at the time of the owner's last
-/// heard state, less the corrections since then; nullopt: this copy is the owner's, or nothing is
-/// known.
+/// received state, minus the corrections since then. nullopt: this copy is the owner's, or nothing
+/// is known.
 std::optional<PoseCorrection::Motion> PoseCorrection::error_in_past(const Copy& copy,
                                                                     std::size_t body) const
 {

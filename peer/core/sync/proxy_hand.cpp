@@ -12,7 +12,7 @@ namespace hapnet::peer {
 
 namespace {
 
-/// The share of the way that a first-order filter goes in a time.
+/// Returns the share of a step that a first-order filter passes in a time.
 double share_in(double seconds, double constant_s)
 {
     return constant_s > 0.0 ? 1.0 - base::exp(-seconds / constant_s) : 1.0;
@@ -39,7 +39,7 @@ void HandMotion::step(const HandDynamics& hand, double friction_n, const glm::dv
             sticks
                 ? 0.0
                 : (before + seconds * (force[axis] - along * friction_n) / hand.mass_kg) / damping;
-        // Friction ends a motion, and turns none round.
+        // Friction stops a motion, but never reverses it.
         speed[axis] = after * along < 0.0 ? 0.0 : after;
         place[axis] += seconds * speed[axis];
     }
@@ -97,7 +97,8 @@ double ProxyHand::hear(const ReceivedState& received)
     return 1e-6 * static_cast<double>(static_cast<std::int32_t>(work_uj_ - work_before_uj));
 }
 
-/// The newest word with at most this number. Numbers asked for do not fall.
+/// Returns the newest message with at most this tick number. The requested numbers must not
+/// decrease.
 const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t tick_number)
 {
     if (heard_ == 0) return nullptr;
@@ -108,8 +109,8 @@ const ProxyHand::Heard* ProxyHand::heard_at(std::uint32_t tick_number)
     return found.tick_number <= tick_number ? &found : nullptr;
 }
 
-/// Learns by least squares how well a projection of an earlier message predicts this one. The prior
-/// leaves a slow hand where it was heard.
+/// Learns by least squares how well an extrapolation of an earlier message predicts this one. The
+/// prior makes a slow hand stay where it was received.
 void ProxyHand::learn(const Heard& word, std::uint32_t ticks, double tick_s, double age_s)
 {
     const auto age_ticks = static_cast<std::uint32_t>(std::lround(age_s / tick_s));

@@ -16,17 +16,18 @@
 
 namespace hapnet::peer {
 
-/// Options of a proxy, which stands for another hand. docs/design/remote-proxy.md has the
+/// The options of a proxy, which represents another hand. docs/design/remote-proxy.md has the
 /// equations.
 struct ProxyHandOptions {
-    HandDynamics hand{}; // where the hello gives no values
+    HandDynamics hand{}; // used if the hello gives no values
     base::Duration anchor_filter{std::chrono::milliseconds{20}};
     double anchor_speed_m_per_s = 0.4;
-    /// The intention's velocity is smoothed over this share of its age, since the age multiplies
-    /// its noise, and over at least velocity_filter_min.
+    /// The velocity of the intention is smoothed over this share of its age, because the age
+    /// multiplies its noise, and over at least velocity_filter_min.
     double velocity_filter = 0.15;
-    base::Duration velocity_filter_min{std::chrono::milliseconds{20}}; // least smoothing time
-    /// A resting hand wanders by 5 to 7 mm/s, a carrying one moves at 67.
+    base::Duration velocity_filter_min{std::chrono::milliseconds{20}}; // shortest smoothing time
+    /// The speed of an intention below which its extrapolation gets less weight. A resting hand
+    /// wanders at 5 to 7 mm/s, a carrying one moves at 67 mm/s.
     double believed_above_m_per_s = 0.015;
     base::Duration memory{std::chrono::seconds{2}};
     base::Duration ahead_max{std::chrono::milliseconds{250}};
@@ -78,51 +79,53 @@ constexpr auto fields_of(base::Tag<ProxyHandOptions> /*struct*/)
                     "length of the projection at which half of the spring becomes a force"));
 }
 
-/// A hand as a mass that moves.
+/// The motion of a hand, which is a mass.
 struct HandMotion {
     glm::dvec3 place{0.0};
     glm::dvec3 speed{0.0};
 
-    /// Moves on by a short time under a constant force, the hand's damping and friction (Karnopp
-    /// 1985), each axis by itself.
+    /// Advances the motion by a short time under a constant force, with the hand's damping and
+    /// friction (Karnopp 1985). Each axis is independent.
     void step(const HandDynamics& hand, double friction_n, const glm::dvec3& force, double seconds);
 };
-/// The number of steps in a tick. A step is short against every hand's own period, also with the
+/// The number of steps in a tick. A step is short compared to the period of any hand, even with the
 /// stiffest contact.
 inline constexpr int hand_steps_per_tick = 4;
 
-/// The hand of another peer in this copy of the scene: a mass on a spring, with damping and
-/// friction, drawn to where its owner means to be by now. How far the heard intention is projected
-/// to now is learnt from how well that would have worked (eta); how far the hand is trusted to be a
-/// spring, and not a mere force, from what it would have missed by (g).
+/// The hand of another peer in this copy of the scene: a mass with damping and friction, drawn by a
+/// spring to the place where its owner intends to be at present. Two parameters are learnt. eta is
+/// the degree to which the received intention is extrapolated to the present, from the success of
+/// past extrapolations. g is the degree to which the hand is modelled as a spring and not as a mere
+/// force, from the errors that the spring would have made.
 class ProxyHand {
 public:
     explicit ProxyHand(const ProxyHandOptions& options);
 
-    /// A state that was taken. Returns the work that its owner has put in since the one before, J:
-    /// it may be negative.
+    /// Takes a state. Returns the work that its owner has put in since the previous one, in J. It
+    /// may be negative.
     [[nodiscard]] double hear(const ReceivedState& received);
-    /// Forgets its owner's run, which has ended. Its work is counted from the next message on.
+    /// Forgets its owner's run, which has ended. The work is counted from the next message on.
     void forget();
 
-    /// The age of what was heard last.
+    /// Returns the age of the newest message.
     [[nodiscard]] base::Duration age(base::TimePoint now) const;
-    /// The largest age of late, which is forgotten within some seconds; at most 400 ms.
+    /// Returns the largest recent age, at most 400 ms. It is forgotten within some seconds.
     [[nodiscard]] base::Duration usual_age() const { return base::from_seconds(ages_.seconds()); }
     [[nodiscard]] double eta() const { return eta_; }
-    /// The time at which it last touched a body, on this peer's clock.
+    /// Returns the time at which the hand last touched a body, on this peer's clock.
     [[nodiscard]] const std::optional<base::TimePoint>& touched_at() const { return touched_at_; }
-    /// The time at which the newest message was sent, on this peer's clock.
+    /// Returns the time at which the newest message was sent, on this peer's clock.
     [[nodiscard]] base::TimePoint sent_at() const { return sent_at_; }
     [[nodiscard]] const HandDynamics& dynamics() const { return hand_; }
     [[nodiscard]] const glm::dvec3& intention() const { return intention_; } // as last heard
-    /// The velocity of the intention, smoothed.
+    /// Returns the smoothed velocity of the intention.
     [[nodiscard]] const glm::dvec3& intention_velocity() const { return velocity_; }
 
-    /// Comes, stays or goes as its owner's hand does, and looks where to be drawn to.
+    /// The input of look(), which lets the hand appear, stay or disappear as its owner's hand does,
+    /// and updates the place that it is drawn to.
     struct View {
         const Remote& other;
-        const wire::BodyState* there = nullptr; // the body that its hand is on, as last heard
+        const wire::BodyState* there = nullptr; // the body in the hand, from the last message
         const scene::World& world;              // this copy, with the same body
         base::TimePoint now;
         base::Duration tick{};
@@ -134,18 +137,18 @@ public:
     [[nodiscard]] base::Position place() const { return {motion_.place}; }
 
     [[nodiscard]] double kinetic_energy_j() const;
-    /// The energy of its drive, which is a spring and a steady force, at full share.
+    /// Returns the energy of the drive, which is a spring and a steady force, at full share.
     [[nodiscard]] double drive_energy_j() const;
-    /// Moves on by a tick against the force on it. `share` is the share of its spring and force
-    /// that the account and freshness allow. Returns the work of that force, J: negative when it
-    /// has given the copy energy.
+    /// Advances the hand by a tick against the force on it. `share` is the share of its spring and
+    /// its force that the account and the freshness allow. Returns the work of that force, in J. It
+    /// is negative if the hand has given energy to the copy.
     [[nodiscard]] double step(base::Force on_hand, double share, base::Duration tick);
 
-    /// Dry friction of its finger on the body, where the scene's hands have any.
+    /// The dry friction of the finger on the body, if the scene's hands have friction.
     std::optional<FingerFriction> finger;
 
 private:
-    /// A word of its owner, for learning.
+    /// The data from a message of the owner that learning needs.
     struct Heard {
         std::uint32_t tick_number = 0;
         glm::dvec3 place{0.0};
@@ -174,16 +177,16 @@ private:
     RecentAge ages_;
     std::vector<Heard> words_; // ring of words_max messages
     std::uint64_t heard_ = 0;  // number of messages heard so far
-    std::uint64_t older_ = 0;  // number of the message at which heard_at() last stopped
+    std::uint64_t older_ = 0;  // index of the message where heard_at() last stopped
 
-    // Values that were learnt: means of products of predicted and true motion.
+    // Learnt values: means of products of predicted and true motion.
     double predicted_true_ = 0.0;
     double predicted_ = 0.0;
     double true_ = 0.0;
     double eta_ = 0.0;
-    double trust_ = 1.0; // g: how far the hand is trusted to be a spring
+    double trust_ = 1.0; // g: degree to which the hand is modelled as a spring
 
-    // The hand in this copy.
+    // The state of the hand in this copy.
     bool is_there_ = false;
     bool gripping_ = false;
     HandMotion motion_;

@@ -10,13 +10,14 @@ namespace hapnet::peer {
 
 namespace {
 
-/// The hand of the scene that stands for one of the others.
+/// Returns the hand of the scene that represents one of the others.
 std::uint32_t hand_of(std::size_t other)
 {
     return own_hand + 1 + static_cast<std::uint32_t>(other);
 }
 
-/// One that does not turn: otherwise copies are kept together by PoseCorrection.
+/// True if there is one body and it does not turn. Otherwise PoseCorrection keeps the copies
+/// together.
 bool has_one_without_turning(const scene::Bodies& bodies)
 {
     return bodies.movable == 1 && bodies.properties.front().turning == scene::Turning::locked;
@@ -47,8 +48,8 @@ void RemoteProxy::hear(const ReceivedState& received)
 
 void RemoteProxy::forget(std::size_t of) { proxies_[of].forget(); }
 
-/// Lends the energy that may be under way before its receipt comes, in proportion to the largest
-/// age. It is lent once, and not again when ages fall and rise.
+/// Lends the energy that may be under way before the report of it arrives, in proportion to the
+/// largest age. It is lent once, and not again when ages fall and rise.
 void RemoteProxy::lend()
 {
     base::Duration age{0};
@@ -78,7 +79,8 @@ void RemoteProxy::look(const scene::World& world, const Situation& situation)
     }
 }
 
-/// Returns the view of the body that the other hand is on, where bodies turn or are several.
+/// Returns the view of the body that the other hand touches, if bodies turn or if there are
+/// several.
 ProxyHand::View RemoteProxy::view_of(std::size_t other, const scene::World& world,
                                      const Situation& situation) const
 {
@@ -98,7 +100,7 @@ ProxyHand::View RemoteProxy::view_of(std::size_t other, const scene::World& worl
     return view;
 }
 
-/// The share of the proxies' drives that the account covers.
+/// Returns the share of the proxies' drives that the account covers.
 double RemoteProxy::share() const
 {
     double moving_j = 0.0;
@@ -179,7 +181,8 @@ bool RemoteProxy::is_anyone_touching(const Situation& situation) const
            });
 }
 
-/// Returns the one with the lowest id among those that are heard and this peer; nullopt: this peer.
+/// Returns the peer with the lowest id among those that are heard and this peer; nullopt stands for
+/// this peer.
 std::optional<std::size_t> RemoteProxy::lowest(const Situation& situation)
 {
     for (std::size_t i = 0; i < situation.lower_ids; ++i)
@@ -187,11 +190,12 @@ std::optional<std::size_t> RemoteProxy::lowest(const Situation& situation)
     return std::nullopt;
 }
 
-/// Returns the peer whose pose counts; nullopt: this peer. At first it is the one that touched
-/// last. But messages about a touch may have been lost, or an older touch may be reported after
-/// this hand's last one. Then several peers take themselves for the last, or none does. So a while
-/// after the last touch of any hand it is the lowest id. This decision needs only the newest
-/// message of each peer, which arrives sooner or later, so that all copies decide in the same way.
+/// Returns the peer whose pose is authoritative; nullopt stands for this peer. At first it is the
+/// peer that touched last. But messages about a touch may have been lost, or an older touch may be
+/// reported after this hand's last one. Then several peers consider themselves the last, or none
+/// does. So a while after the last touch of any hand it is the lowest id. This decision needs only
+/// the newest message of each peer, which arrives sooner or later, so that all copies decide in the
+/// same way.
 std::optional<std::size_t> RemoteProxy::leader(const Situation& situation) const
 {
     std::optional<std::size_t> found;
@@ -210,9 +214,9 @@ std::optional<std::size_t> RemoteProxy::leader(const Situation& situation) const
     return is_quiet ? lowest(situation) : found;
 }
 
-/// Returns the way from this copy's body to the leader's. While the leader moves it, its present
-/// place is predicted. Afterwards places at the same time in the past are compared, which are known
-/// of both copies, so that the delay is not in the loop.
+/// Returns the displacement from this copy's body to the leader's. While the leader moves the body,
+/// its present place is predicted. Afterwards, places at the same past time are compared. Both
+/// copies' places of that time are known, so the delay is not in the loop.
 glm::dvec3 RemoteProxy::error_against(std::size_t leader, const Situation& situation,
                                       const scene::BodyState& body) const
 {
@@ -246,7 +250,8 @@ void RemoteProxy::correct(scene::World& world, const Situation& situation)
     if (way == glm::dvec3{0.0}) return;
     world.shift(situation.body, {way});
     corrected_ += way;
-    // Against a proxy it stretches the springs of their contact, which no hand's work has paid for.
+    // A motion against a proxy stretches the springs of the contact with it, and no hand has
+    // supplied this energy.
     account_j_ -= std::max(0.0, -glm::dot(proxy_force_, way));
 }
 

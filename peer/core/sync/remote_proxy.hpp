@@ -38,34 +38,35 @@ constexpr auto fields_of(base::Tag<RemoteProxyOptions> /*struct*/)
                     "greatest speed of that correction"));
 }
 
-/// The other hands are present in this copy as hands, each drawn to where its owner means to be
-/// (remote dynamic proxies, Li and Constantinescu; the intention, Takagi et al. 2017). No delayed
-/// force is fed back: the loop closes by the error of the model alone. What all proxies together
-/// may put into this copy is bounded by what their owners are known to have put in, as their
-/// running sums of work say (passive set-position modulation, Lee and Huang), so that the copies
-/// together stay passive also over a bad network and with a wrong model of a hand: the page of the
-/// algorithms derives the bound, and a property test holds sessions over random networks to it.
+/// Represents the other hands as hands in this copy, each drawn to the place where its owner
+/// intends to be (remote dynamic proxies, Li and Constantinescu; the intention, Takagi et al.
+/// 2017). No delayed force is fed back: only the error of the model closes the loop. The energy
+/// that all proxies together may put into this copy is limited to the work that their owners have
+/// put in, by their running sums (passive set-position modulation, Lee and Huang). So the copies
+/// together stay passive even over a bad network and with a wrong model of a hand. The page of the
+/// algorithms derives the bound, and a property test checks it in sessions over random networks.
 class RemoteProxy {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.4);
 
     RemoteProxy() : RemoteProxy(RemoteProxyOptions{}) {}
     explicit RemoteProxy(const RemoteProxyOptions& options);
 
-    /// Takes the memory for this number of others and the bodies of this world.
+    /// Allocates the memory for this number of other peers and for the bodies of this world.
     void prepare(std::size_t others, const scene::World& world);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const RemoteProxyOptions& options() const { return options_; }
-    /// The energy that the proxies may still give, J.
+    /// Returns the energy that the proxies may still give, in J.
     [[nodiscard]] double account_j() const { return account_j_; }
     [[nodiscard]] const std::vector<ProxyHand>& proxies() const { return proxies_; }
 
-    /// The time after the last known touch for which the last toucher's copy counts. After it, the
-    /// copy of the lowest id counts. It is longer than the largest age that has an allowance.
+    /// The time after the last known touch during which the last toucher's copy is authoritative.
+    /// After it, the copy of the lowest id is. The time is longer than the largest age that has an
+    /// allowance.
     static constexpr base::Duration last_touch_counts_for{std::chrono::milliseconds{500}};
 
 private:
@@ -74,7 +75,7 @@ private:
         std::size_t index = 0;
         base::TimePoint touched;
     };
-    /// This copy in an earlier tick.
+    /// The state of this copy in an earlier tick.
     struct Past {
         glm::dvec3 place{0.0};
         glm::dvec3 corrected{0.0};
@@ -101,7 +102,8 @@ private:
     RemoteProxyOptions options_;
     std::vector<ProxyHand> proxies_; // one for each of the others, in their order
     std::vector<base::Force> rubbing_;
-    /// Used for bodies that turn, or several; nullopt: correct() and remember() are used.
+    /// Used for bodies that turn, or for several; if it is nullopt, correct() and remember() are
+    /// used.
     std::optional<PoseCorrection> poses_;
     std::vector<Past> past_; // ring of past_max ticks
     std::uint64_t ticks_ = 0;

@@ -23,7 +23,7 @@ void Rollback::hear(const ReceivedState& received)
     RemoteHand& hand = hands_[received.from];
     const auto tick = hand.heard.hear(received);
     if (!tick) return;
-    // A message that was overtaken fills a gap, unless the past already includes its tick.
+    // An overtaken message fills a gap, unless the past already includes its tick.
     if (*tick > confirmed_ && hand.heard.history.add(*tick, HandSample::of(received.state)))
         has_news_ = true;
     if (!received.taken) return;
@@ -39,7 +39,7 @@ void Rollback::forget(std::size_t of)
     hands_[of].whole = confirmed_;
 }
 
-/// Begins from `world` as it is: at the start, and when it was changed from outside.
+/// Begins with the present state of `world`, at the start and after it was changed from outside.
 void Rollback::begin(const scene::World& world, std::int64_t now)
 {
     past_->restore(world);
@@ -108,7 +108,7 @@ void Rollback::move_models(const scene::World& world, const Situation& situation
     }
 }
 
-/// Returns the last tick for which the hands of all are known well enough to be the past.
+/// Returns the last tick for which all hands are known well enough for the past.
 std::int64_t Rollback::known_until(const Situation& situation, std::int64_t now)
 {
     std::int64_t until = now;
@@ -127,7 +127,7 @@ std::int64_t Rollback::known_until(const Situation& situation, std::int64_t now)
     return std::max(until, now - resimulated_max);
 }
 
-/// Brings the past to where it is known. True: it has moved on.
+/// Advances the past as far as it is known. Returns true if it has advanced.
 bool Rollback::confirm(const Situation& situation, std::int64_t now)
 {
     const std::int64_t until = known_until(situation, now);
@@ -147,7 +147,7 @@ void Rollback::step_present(const Situation& situation, std::int64_t tick)
     move_models(*present_, situation, tick);
 }
 
-/// The present again, from the past on.
+/// Computes the present again, starting from the past.
 void Rollback::predict(const Situation& situation, std::int64_t now)
 {
     present_->restore(*past_);
@@ -160,8 +160,8 @@ void Rollback::predict(const Situation& situation, std::int64_t now)
     for (std::int64_t tick = confirmed_ + 1; tick <= now; ++tick) step_present(situation, tick);
 }
 
-/// Finds the force that the own hand feels: its contact with the body as it is shown, with the
-/// other hands as far from it as in the present.
+/// Finds the force that this peer's hand feels. It is that of its contact with the body as shown.
+/// The other hands have the same distance from the body as in the present world.
 Outcome Rollback::feel(scene::World& world, const Situation& situation, std::int64_t now)
 {
     const scene::HandInput own = world.state().hands[own_hand];
@@ -187,7 +187,7 @@ Outcome Rollback::feel(scene::World& world, const Situation& situation, std::int
     return outcome;
 }
 
-/// A critically damped spring takes what is shown to the present.
+/// Moves the shown body to the present one with a critically damped spring.
 void Rollback::smooth(const glm::dvec3& jump, double tick_s)
 {
     offset_ += jump;
@@ -202,15 +202,15 @@ void Rollback::smooth(const glm::dvec3& jump, double tick_s)
     offset_ += tick_s * offset_speed_;
 }
 
-/// Makes pasts agree that differ because messages were missing. The one that yields goes to where
-/// the other rests; the offset takes what is shown there.
+/// Makes pasts agree that differ because messages were lost. The copy that yields moves to the
+/// place of the other at rest; the offset moves the shown body there.
 base::Displacement Rollback::rest(const Situation& situation, const Outcome& outcome)
 {
     const auto leader = yields_to(situation);
     if (!leader || !hands_[*leader].heard.told) return {};
     RestAgreement::Word word = *hands_[*leader].heard.told;
-    // In a pair, the other answers this hand's messages, by the clock. Among more peers, the age of
-    // a message between two others is not known.
+    // In a pair, the other peer answers this hand's messages, by the clock. With more peers, the
+    // age of a message between two others is not known.
     word.knows = hands_.size() == 1 ? word.knows - SessionTicks::in_time / situation.tick
                                     : word.tick - resimulated_max;
     rest_.hear(word);

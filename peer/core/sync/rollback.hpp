@@ -15,7 +15,7 @@
 namespace hapnet::peer {
 
 struct RollbackOptions {
-    HandDynamics hand{.friction_n = 0.26}; // where the hello gives no values; an Omni's friction
+    HandDynamics hand{.friction_n = 0.26}; // if the hello gives no values; friction of an Omni
     double velocity_filter = 0.15;
     base::Duration velocity_filter_min{std::chrono::milliseconds{20}};
     double believed_above_m_per_s = 0.015;
@@ -50,40 +50,41 @@ constexpr auto fields_of(base::Tag<RollbackOptions> /*struct*/)
                     "so long the past waits for a silent peer"));
 }
 
-/// Two worlds in each copy (rollback and resimulation, as in games): one of the past, moved by the
-/// hands as they were, and one of the present, computed again from there with every message, in
-/// which a hand that touched is a hand that goes on as it means to. Where no
-/// message is missing all pasts are the same to the bit. The present has no bound on its energy:
-/// this is a yardstick for the others. docs/design/algorithms.md has the equations.
+/// Each copy has two worlds (rollback and resimulation, as in games). The world of the past is
+/// moved by the hands as they were. The world of the present is computed again from the past with
+/// every message; in it, a hand that touched continues according to its intention. If no message is
+/// missing, all pasts are equal to the bit. The energy of the present is not bounded: this
+/// algorithm is a reference to compare the others with. docs/design/algorithms.md has the
+/// equations.
 class Rollback {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(0.25);
 
     Rollback() : Rollback(RollbackOptions{}) {}
     explicit Rollback(const RollbackOptions& options) : options_{options} {}
 
-    /// Takes the memory for this number of others and for two copies of the world.
+    /// Allocates the memory for this number of other peers and for two copies of the world.
     void prepare(std::size_t others, const scene::World& world);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
     void forget(std::size_t of = 0);
 
     [[nodiscard]] const RollbackOptions& options() const { return options_; }
-    /// The tick of the session that the past has come to; -1: none.
+    /// Returns the tick of the session that the past has reached; -1: none.
     [[nodiscard]] std::int64_t confirmed() const { return confirmed_; }
-    /// Ensures that prepare() was called.
+    /// Returns the world of the past. Ensures that prepare() was called.
     [[nodiscard]] const scene::World& past() const
     {
         base::ensure(past_.has_value());
         return *past_;
     }
 
-    /// The time for which the past waits for a peer that was never heard.
+    /// The time for which the past waits for a peer that has never been heard.
     static constexpr base::Duration waits_for{std::chrono::seconds{1}};
     /// The greatest number of ticks that are computed again.
     static constexpr std::int64_t resimulated_max = 1000;
-    /// The least time for which a body rests before its places are compared.
+    /// The least time for which a body must rest before its places are compared.
     static constexpr base::Duration rests_for{std::chrono::milliseconds{100}};
 
 private:
@@ -91,9 +92,9 @@ private:
         explicit RemoteHand(const ProxyHandOptions& options) : learnt{options} {}
 
         HeardHand heard;
-        ProxyHand learnt;        // model of what the hand's owner means to do
+        ProxyHand learnt;        // model of the owner's intention
         std::int64_t whole = -1; // last tick up to which no sample is missing
-        bool touches = false;    // touches a body, by its newest message
+        bool touches = false;    // it touches a body in its newest message
         HandMotion motion{};     // motion of its model in the present world
     };
 

@@ -12,18 +12,19 @@
 
 namespace hapnet::peer {
 
-/// Numbers the ticks of one peer so that all peers use the same numbers, although their clocks
-/// differ by a few milliseconds. The first tick of the peers that were there at the start is number
-/// 0. Counting is exact where clocks are not. Only a peer that joins late, or has missed many
-/// ticks, is numbered once by the clock, and from then on by counting again.
+/// Numbers the ticks of a peer such that all peers use the same numbers, although their clocks
+/// differ by a few milliseconds. Number 0 is the first tick of the peers that were present at the
+/// start. Ticks are counted, because counting is exact and clocks are not. Only for a peer that
+/// joins late, or has missed many ticks, one number is taken from the clock, and later ones are
+/// counted from there.
 class SessionTicks {
 public:
-    /// The tolerance between the count of ticks and the clock. A peer that is later by less was
-    /// present at the start: agreed starts differ by less.
+    /// The tolerance between the count of ticks and the clock. A peer that is late by less was
+    /// present at the start, because agreed starts differ by less.
     static constexpr base::Duration in_time{std::chrono::milliseconds{50}};
 
-    /// Returns the session's number of a peer's tick. The peer has played `count` ticks before it,
-    /// and the clock says `since_start` from the session's start.
+    /// Returns the number in the session of a peer's tick. The peer has played `count` ticks before
+    /// it, and the clock shows `since_start` since the session's start.
     [[nodiscard]] std::int64_t number(std::int64_t count, base::Duration since_start,
                                       base::Duration tick)
     {

@@ -23,7 +23,8 @@ BodySet bit_of_body(std::size_t body) { return static_cast<BodySet>(1U << body);
 
 bool has_body(BodySet set, std::size_t body) { return (set >> body & 1U) != 0; }
 
-/// The axis of the world about which alone a body may turn; zero if it may about any.
+/// Returns the only axis of the world about which a body may turn; zero if it may turn about any
+/// axis.
 glm::dvec3 only_axis_of(scene::Turning turning)
 {
     switch (turning) {
@@ -36,7 +37,7 @@ glm::dvec3 only_axis_of(scene::Turning turning)
     return glm::dvec3{0.0};
 }
 
-/// A part of the way from one state to another, at the velocity of the other.
+/// Returns a state between two states, with the velocity of the second.
 scene::BodyState between(const scene::BodyState& from, const scene::BodyState& to, double share)
 {
     scene::BodyState state = to;
@@ -46,7 +47,7 @@ scene::BodyState between(const scene::BodyState& from, const scene::BodyState& t
     return state;
 }
 
-/// True if a copy at rest is where its owner's is at rest.
+/// True if both this copy and its owner's are at rest at the same place.
 bool agree(const scene::BodyState& own, const scene::BodyState& there)
 {
     const double alike =
@@ -148,7 +149,7 @@ void SharedPoses::find_groups(base::TimePoint now)
             if (touching_[i][k] && now - *touching_[i][k] < contact_lasts)
                 groups_[i] = static_cast<BodySet>(groups_[i] | bit_of_body(k));
     }
-    // A body that touches one through another belongs to its group, too (Warshall 1962).
+    // Bodies that touch only through others also belong to one group (Warshall 1962).
     for (std::size_t through = 0; through < bodies_.size(); ++through) {
         for (std::size_t i = 0; i < bodies_.size(); ++i)
             if (has_body(groups_[i], through))
@@ -267,7 +268,7 @@ void SharedPoses::place(scene::World& world, std::size_t body, const scene::Body
     }
 }
 
-/// True if it, or its way, may touch this hand or a body that this hand moves.
+/// True if a body, or its path, may touch this hand or a body that this hand moves.
 bool SharedPoses::is_near_hand(const scene::World& world, std::size_t body, double within_m) const
 {
     const glm::dvec3 place = world.position(bodies_[body].id).value;

@@ -22,7 +22,7 @@ using base::Reading;
 template <typename One>
 using OptionsOf = std::remove_cvref_t<decltype(std::declval<One>().options())>;
 
-/// The words besides a number that a field takes, for a person: "; drop | take".
+/// Returns the words that a field accepts besides a number, for people: "; drop | take".
 std::string choices(const base::FieldRow& row)
 {
     std::vector<std::string_view> words;
@@ -36,13 +36,13 @@ std::string choices(const base::FieldRow& row)
     return words.empty() ? "" : fmt::format("; {}", fmt::join(words, " | "));
 }
 
-/// A line for every parameter, with a few words about it.
+/// Returns a line for every parameter, with a short description.
 template <base::Described Options>
 std::string explained(const Options& options)
 {
     std::string text;
     for (const base::FieldRow& row : base::field_table<Options>().rows) {
-        // A parameter always has a text: an absent one has a word for it.
+        // A parameter always has a text, because an absent value is written as a word.
         const std::string line = fmt::format("{} = {}", row.key, *base::field_text(row, &options));
         text += fmt::format("{:<42} # {}{}\n", line, row.about, choices(row));
     }

@@ -11,30 +11,31 @@
 
 namespace hapnet::peer {
 
-// Algorithms as TOML: `algorithm = "dead-reckoning"` and the keys of its parameters. A missing
-// parameter has its named default. docs/design/algorithms.md lists them.
+// Algorithms as TOML: `algorithm = "dead-reckoning"` and the keys of its parameters. Missing
+// parameters have the defaults that docs/design/algorithms.md lists.
 
-/// Reads the table at `node`, or the name of an algorithm or of a file of one; nullopt when a
-/// complaint was made.
+/// Reads an algorithm from `node`: a table, the name of an algorithm, or the name of its file.
+/// Returns nullopt after a complaint.
 [[nodiscard]] std::optional<Algorithm> read_algorithm(const base::Node& node,
                                                       base::Reading& reading);
 
-/// Reads a whole text. `source` names it in errors, which begin with "FILE:LINE:COLUMN: " and say
+/// Parses a whole text. `source` names it in errors, which begin with "FILE:LINE:COLUMN: " and say
 /// what is wrong and what would be right.
 [[nodiscard]] base::Result<Algorithm> parse_algorithm(std::string_view text,
                                                       const std::string& source);
 
-/// Returns the algorithm of that name ("base", "sep", "dead-reckoning") with all defaults, or that
-/// of a file whose text `open` gives. A name that ends in ".so" is a shared object, and is not
-/// loaded here.
+/// Returns the algorithm with that name ("base", "sep", "dead-reckoning") and all defaults, or the
+/// one in a file whose content `open` returns. A name that ends in ".so" is a shared object, which
+/// this function does not load.
 [[nodiscard]] base::Result<Algorithm> load_algorithm(const std::string& file_or_name,
                                                      const base::OpenFile& open);
 
-/// TOML that reads back as the same algorithm; of every parameter, also the defaults.
+/// Returns TOML that reads back as the same algorithm. It contains every parameter, including the
+/// defaults.
 [[nodiscard]] std::string print_algorithm(const Algorithm& algorithm);
 
-/// The algorithm's text with a few words about every parameter, for a person who wants to change
-/// it.
+/// Returns the algorithm's text with a short description of each parameter, for a person who wants
+/// to change it.
 [[nodiscard]] std::string explain_algorithm(const Algorithm& algorithm);
 
 } // namespace hapnet::peer

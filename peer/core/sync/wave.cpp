@@ -35,7 +35,7 @@ glm::dvec3 Wave::outgoing(const glm::dvec3& velocity, const glm::dvec3& incoming
     return size > wave_max_ ? (wave_max_ / size) * wave : wave;
 }
 
-/// Returns the wave that this copy sent in the message with that stamp; zero: the message is too
+/// Returns the wave that this copy sent in the message with that stamp; zero if the message is too
 /// old.
 glm::dvec3 Wave::sent_at(Channel& channel, base::TimePoint at) const
 {
@@ -52,7 +52,7 @@ void Wave::hear(const ReceivedState& received)
     if (!received.taken) return;
     const wire::State& state = received.state;
     Channel& channel = channels_[received.from];
-    // A wave that had reached the sender within its tick acted in that tick.
+    // A wave that had reached the sender by its tick acted in that tick.
     glm::dvec3 theirs{0.0};
     if (state.echo && state.echo->age < received.tick) theirs = sent_at(channel, state.echo->of);
     const wire::BodyState* const body = state.bodies.first();
@@ -65,8 +65,8 @@ Outcome Wave::tick(scene::World& world, const Situation& situation)
 {
     const CombinedRemote remote = combined_remote(situation, BaseOptions{});
     const glm::dvec3 velocity = world.velocity(situation.body).value;
-    // A copy that is put where another was answers no wave: that one's own past velocity would come
-    // back to it and drive it on.
+    // A copy that is moved to the other's place sends no wave in answer. Otherwise the other's own
+    // past velocity would return to it and drive it on.
     const bool is_closed = at_rest_.has_waited(situation.now);
     glm::dvec3 sum{0.0};
     for (Channel& channel : channels_) {

@@ -24,21 +24,21 @@ constexpr auto fields_of(base::Tag<WaveOptions> /*struct*/)
                                     "renders a stiffness of b/D"));
 }
 
-/// A channel of waves joins each two copies of the body (Niemeyer and Slotine 1991, 2004). It is
-/// passive for any delay. A wave acts for one tick and once; where none arrives, the channel is a
-/// damper, so that loss and jitter weaken it and bring in no energy (Hirche and Buss). No message
-/// contains the waves: a receiver computes them from the sender's velocity and from the waves that
-/// the sender had got, which the echo tells. Both sides must therefore play it, with the same
-/// impedance. docs/design/algorithms.md has the equations.
+/// Joins the copies of the body, pair by pair, by a channel of waves (Niemeyer and Slotine 1991,
+/// 2004). The channel is passive for any delay. A wave acts once, for one tick. In a tick without a
+/// wave, the channel is a damper, so that loss and jitter weaken it but bring in no energy (Hirche
+/// and Buss). Messages do not contain the waves: a receiver computes them from the sender's
+/// velocity and from the waves that the sender had received, which the echo shows. So both sides
+/// must use this algorithm, with the same impedance. docs/design/algorithms.md has the equations.
 class Wave {
 public:
-    /// The energy that it may bring into a hand at an Omni.
+    /// The energy that the algorithm may bring into a hand at an Omni.
     static constexpr auto energy_limits = energy_at_an_omni(1.2);
 
     Wave() : Wave(WaveOptions{}) {}
     explicit Wave(const WaveOptions& options);
 
-    /// Takes the memory for this number of others.
+    /// Allocates the memory for this number of other peers.
     void prepare(std::size_t others);
     void hear(const ReceivedState& received);
     [[nodiscard]] Outcome tick(scene::World& world, const Situation& situation);
@@ -57,11 +57,11 @@ private:
         std::optional<glm::dvec3> incoming; // wave that acts in the next tick
         std::vector<Sent> ring;             // sent waves, one per tick
         std::uint64_t sent = 0;             // number of waves sent so far
-        std::uint64_t oldest_of_use = 0;    // number of the oldest wave that an echo may still name
+        std::uint64_t oldest_of_use = 0;    // oldest wave that an echo may refer to
     };
     [[nodiscard]] glm::dvec3 sent_at(Channel& channel, base::TimePoint at) const;
     /// Returns the wave that leaves a copy with this velocity and incoming wave. It is limited to
-    /// that of twice the greatest force of a contact. Both ends compute it in the same way.
+    /// the wave of twice the greatest force of a contact. Both ends compute it in the same way.
     [[nodiscard]] glm::dvec3 outgoing(const glm::dvec3& velocity, const glm::dvec3& incoming) const;
 
     static constexpr std::size_t ring_max = 4096; // ticks

@@ -11,11 +11,12 @@
 
 namespace hapnet::base {
 
-/// Age of information (Kaul, Yates, Gruteser, "Real-time status: how often should one update?",
-/// 2012): the time since the newest update that has arrived was sent. nullopt: not measured.
+/// The age of information (Kaul, Yates, Gruteser, "Real-time status: how often should one update?",
+/// 2012): the time since the newest of the updates that have arrived was sent. nullopt: not
+/// measured.
 struct Age {
     std::optional<Duration> mean;      // mean over time
-    std::optional<Duration> peak_mean; // mean of the peaks, each just before a newer update arrives
+    std::optional<Duration> peak_mean; // mean of the values just before newer updates arrive
     std::optional<Duration> peak_max;
 
     friend bool operator==(const Age&, const Age&) = default;
@@ -29,12 +30,13 @@ constexpr auto fields_of(Tag<Age>)
 /// Measures the age of information as updates arrive.
 class AgeMeter {
 public:
-    /// Takes an update that is newer than all before it, and that arrives `delay` after it was
-    /// sent. `arrived` is not before the arrival of the update before.
+    /// Adds an update that is newer than all before it, and that arrives `delay` after it was sent.
+    /// `arrived` must not be before the arrival of the previous update.
     void add(TimePoint arrived, Duration delay)
     {
         if (newest_) {
-            // Between two updates the age grows by the second every second: a trapezium.
+            // Between two updates the age grows by one second per second. Its integral is a
+            // trapezium.
             const Duration held = arrived - newest_->arrived;
             const Duration peak = newest_->delay + held;
             time_ += held;
@@ -45,10 +47,10 @@ public:
         newest_ = Update{arrived, delay};
     }
 
-    /// The time until the next update does not count.
+    /// Excludes the time until the next update.
     void pause() { newest_.reset(); }
 
-    /// The arrival of the newest update; nullopt at first and after a pause.
+    /// Returns the arrival time of the newest update; nullopt at first and after a pause.
     [[nodiscard]] std::optional<TimePoint> newest_arrived() const
     {
         return newest_ ? std::optional{newest_->arrived} : std::nullopt;

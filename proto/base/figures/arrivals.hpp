@@ -9,15 +9,16 @@
 
 namespace hapnet::base {
 
-/// Tells arrivals in order from reordered ones (RFC 4737, 3.3) by the number that is expected next:
-/// one more than the highest that has arrived. An arrival with a lower number is reordered.
+/// Distinguishes arrivals in order from reordered arrivals (RFC 4737, 3.3). The next expected
+/// number is one more than the highest that has arrived. An arrival with a lower number is
+/// reordered.
 class NextExpected {
 public:
-    /// `first`: the first number of the stream.
+    /// `first` is the first number of the stream.
     constexpr explicit NextExpected(std::uint64_t first = 0) : next_{first} {}
 
-    /// Takes an arrival, and returns how many numbers it skips, which may still come; nullopt if
-    /// it is reordered.
+    /// Adds an arrival. Returns the number of skipped numbers, which may still arrive, or nullopt
+    /// if this arrival is reordered.
     constexpr std::optional<std::uint64_t> add(std::uint64_t number)
     {
         if (number < next_) [[unlikely]]
@@ -33,11 +34,11 @@ private:
     std::uint64_t next_;
 };
 
-/// Counts of what has arrived of a numbered stream.
+/// Counts of the arrivals of a numbered stream.
 struct ArrivalCounts {
     std::uint64_t sent = 0;       // numbers up to the highest that has arrived
-    std::uint64_t received = 0;   // different numbers that have arrived
-    std::uint64_t duplicates = 0; // further copies, which count nowhere else
+    std::uint64_t received = 0;   // distinct numbers that have arrived
+    std::uint64_t duplicates = 0; // further copies, which no other count includes
     std::uint64_t reordered = 0;  // arrivals after one with a higher number (RFC 4737, 3.3)
 
     friend bool operator==(const ArrivalCounts&, const ArrivalCounts&) = default;
@@ -52,13 +53,13 @@ constexpr auto fields_of(Tag<ArrivalCounts>)
         member("reordered", &C::reordered, "Received after one with a higher number (RFC 4737)."));
 }
 
-/// Counts the arrivals of a numbered stream. Its user says which are duplicates, by RecentNumbers
-/// or by what it remembers anyway.
+/// Counts the arrivals of a numbered stream. The caller decides which arrivals are duplicates, with
+/// RecentNumbers or otherwise.
 class ArrivalCounter {
 public:
     enum class Arrival : std::uint8_t { in_order, reordered, duplicate };
 
-    /// `first`: the first number of the stream.
+    /// `first` is the first number of the stream.
     explicit ArrivalCounter(std::uint64_t first) : expected_{first}, first_{first} {}
 
     Arrival add(std::uint64_t number, bool is_duplicate)

@@ -10,7 +10,8 @@
 
 namespace hapnet::base {
 
-// Described structs whose members are counts: std::uint64_t, or one for each value of an enum.
+// Functions for described structs whose members are counts: std::uint64_t, or one count for each
+// value of an enum.
 
 namespace detail {
 
@@ -31,7 +32,7 @@ void change_count(ByName<Enum, std::uint64_t>& counts, const ByName<Enum, std::u
 
 } // namespace detail
 
-/// Adds to each count that of another.
+/// Adds each count of `more` to the same count of `sum`.
 template <Described T>
 void add_counts(T& sum, const T& more)
 {
@@ -42,8 +43,8 @@ void add_counts(T& sum, const T& more)
         sum, more);
 }
 
-/// Returns the counts since `before`, which is an earlier state. Values that can fall keep their
-/// present value.
+/// Returns the counts since the earlier state `before`. Values that can fall keep their present
+/// value.
 template <Described T>
 [[nodiscard]] T counted_since(T now, const T& before)
 {

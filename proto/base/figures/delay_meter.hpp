@@ -9,15 +9,16 @@
 
 namespace hapnet::base {
 
-/// Collects one-way delays (RFC 7679) and their variations, |delay - delay added before| (RFC
-/// 3393). The order of adding is its selection function: a path is measured in the order of
-/// arrival, a probe in the order of its questions. `Collection` is a DurationSample, or a
-/// DurationHistogram, whose adding never allocates.
+/// Collects one-way delays (RFC 7679) and their variations, |delay - previously added delay| (RFC
+/// 3393). The order of adding is the selection function of RFC 3393: a path adds delays in the
+/// order of arrival, a probe in the order of its questions. `Collection` is a DurationSample, or a
+/// DurationHistogram, whose add() never allocates.
 template <typename Collection>
 class DelayMeter {
 public:
-    /// `apart`: the arrival minus the sending, each on its own clock; `ahead`: how far the clock of
-    /// the arrival is ahead. It is left out of variations: estimates of it differ between arrivals.
+    /// Adds a delay. `apart` is the arrival time minus the sending time, each on its own clock.
+    /// `ahead` is the offset of the arrival's clock from the sender's. Variations ignore `ahead`,
+    /// because its estimate changes between arrivals.
     void add(Duration apart, Duration ahead = {})
     {
         delays_.add(apart - ahead);
@@ -25,7 +26,7 @@ public:
         before_ = apart;
     }
 
-    /// The next delay is not compared with the one before.
+    /// Excludes the variation between the last delay and the next one.
     void pause() { before_.reset(); }
 
     [[nodiscard]] const Collection& delays() const { return delays_; }

@@ -10,7 +10,7 @@
 
 namespace hapnet::base {
 
-/// Mean and standard deviation of a sample of durations, to the nearest nanosecond.
+/// The mean and standard deviation of a sample of durations, to the nearest nanosecond.
 struct Moments {
     Duration mean{};
     std::optional<Duration> sd; // standard deviation (n - 1); nullopt for a single value
@@ -22,7 +22,7 @@ constexpr auto fields_of(Tag<Moments>)
     return fields("moments", member("mean", &Moments::mean), member("sd", &Moments::sd));
 }
 
-/// The duration nearest to a number of nanoseconds, half a nanosecond rounded up.
+/// Returns the duration nearest to a number of nanoseconds. Half a nanosecond is rounded up.
 [[nodiscard]] Duration nearest_duration(double nanoseconds);
 
 /// Accumulates mean and variance in one pass (Welford, Technometrics 4, 1962).

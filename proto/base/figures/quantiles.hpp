@@ -11,9 +11,9 @@
 
 namespace hapnet::base {
 
-/// Quantiles of durations by nearest rank: the smallest value that at least this share of all
-/// values do not exceed. A sample knows them exactly, a DurationHistogram to 1.6 % either way and
-/// never outside the range of its values; `max` is always exact.
+/// Quantiles of durations by nearest rank: the smallest value such that at least this share of all
+/// values are not larger. DurationSample returns exact quantiles. Those of DurationHistogram are
+/// within 1.6 % either way and never outside the range of its values. `max` is always exact.
 struct Quantiles {
     Duration p50{};
     Duration p90{};
@@ -30,7 +30,7 @@ constexpr auto fields_of(Tag<Quantiles>)
                   member("max", &Quantiles::max));
 }
 
-/// The quantiles that paths and loops report.
+/// The quantiles that reports on paths and loops contain.
 struct MainQuantiles {
     Duration p50{};
     Duration p99{};
@@ -46,13 +46,13 @@ constexpr auto fields_of(Tag<MainQuantiles>)
                   member("p99", &MainQuantiles::p99), member("max", &MainQuantiles::max));
 }
 
-/// Keeps all durations, for exact quantiles: memory grows with their number.
+/// Keeps all durations, for exact quantiles. Its memory grows with their number.
 class DurationSample {
 public:
     void add(Duration value) { values_.push_back(value); }
 
     [[nodiscard]] std::size_t count() const { return values_.size(); }
-    /// The values in the order in which they were added.
+    /// Returns the values in the order in which they were added.
     [[nodiscard]] const std::vector<Duration>& values() const { return values_; }
 
     /// Returns nullopt when nothing was added.

@@ -8,14 +8,15 @@
 
 namespace hapnet::base {
 
-/// Finds the extents of reordered arrivals (RFC 4737, 4.2): how many arrivals after the first one
-/// with a higher number they came. Remembers the last in-order arrivals, in memory of a fixed size.
+/// Finds the extents of reordered arrivals (RFC 4737, 4.2). The extent is the distance, in
+/// arrivals, from the first arrival with a higher number to the reordered one. Remembers the last
+/// in-order arrivals, in memory of a fixed size.
 class ReorderExtents {
 public:
     /// Number of in-order arrivals that are remembered.
     static constexpr std::size_t looks_back = 1024;
 
-    /// Takes an arrival in order, as NextExpected tells it.
+    /// Adds an arrival in order, as NextExpected classifies it.
     void in_order(std::uint64_t number)
     {
         records_[recorded_++ % looks_back] = {number, arrivals_++};
@@ -23,14 +24,15 @@ public:
 
     struct Extent {
         std::uint64_t arrivals = 0;
-        /// True if the first arrival with a higher number may lie further back than is remembered:
-        /// the extent counts from the oldest that is, and may be too small.
+        /// True if the first arrival with a higher number may be older than all remembered
+        /// arrivals. The extent then counts from the oldest remembered one, and may be too small.
         bool is_cut = false;
     };
-    /// Takes a reordered arrival: at least one in order came before it.
+    /// Adds a reordered arrival. At least one arrival in order must have come before it.
     Extent reordered(std::uint64_t number)
     {
-        // The first arrival with a higher number was in order: all before it had lower numbers.
+        // The first arrival with a higher number was in order, as all arrivals before it had lower
+        // numbers.
         const auto oldest = recorded_ > looks_back ? recorded_ - looks_back : 0;
         auto low = oldest;
         auto high = recorded_ - 1; // this record has a higher number

@@ -10,7 +10,7 @@
 
 namespace hapnet::base {
 
-/// Number, sum and maximum of whole numbers: the lengths of runs, for example.
+/// The number, sum and maximum of whole numbers: the lengths of runs, for example.
 struct Tally {
     std::uint64_t count = 0;
     std::uint64_t sum = 0;

@@ -25,8 +25,8 @@ std::vector<std::string_view> keys_of(const Json& object)
     return keys;
 }
 
-/// Finds the value at a path. The value is null where the path goes on below a null, whose parts
-/// are still to come. The error names the keys at the point where the path is wrong.
+/// Finds the value at a path. It is null if the path continues below a null, whose parts do not
+/// exist yet. If the path is wrong, the error lists the keys at that point.
 base::Result<const Json*> find(std::string_view path, const Json& statistics)
 {
     const Json* place = &statistics;

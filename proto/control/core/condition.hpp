@@ -10,13 +10,13 @@
 
 namespace hapnet::control {
 
-/// The number that the condition is about; nullopt: it has no value yet (null). The error says
-/// which keys there are when the path leads nowhere or to something that is no number.
+/// Returns the figure that the condition compares; nullopt: it has no value yet (null). If the path
+/// leads nowhere or not to a number, the error lists the keys that exist.
 [[nodiscard]] base::Result<std::optional<double>> value_in(const nlohmann::ordered_json& statistics,
                                                            const base::Condition& condition);
 
-/// True if the statistics meet the condition. A figure without a value meets no condition. The
-/// error is the error of value_in().
+/// True if the statistics meet the condition. A figure without a value meets no condition. Fails
+/// with the errors of value_in().
 [[nodiscard]] base::Result<bool> is_met(const base::Condition& condition,
                                         const nlohmann::ordered_json& statistics);
 

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The interval at which a condition is checked that a client waits for. Each check costs about 0.1
+/// The interval at which the condition of a waiting client is checked. Each check costs about 0.1
 /// ms.
 constexpr base::Duration look_every = 100ms;
 
@@ -24,7 +24,7 @@ constexpr base::Duration look_every = 100ms;
 
 std::size_t Conversation::room() const
 {
-    // One byte more than the longest line, so that a line that is too long can be told.
+    // One byte more than the longest line, so that a line that is too long can be detected.
     return has_ended_ ? 0 : line_max_ + 1 - input_.size();
 }
 
@@ -129,7 +129,7 @@ bool Conversation::show(Watching& watching, const Subject& subject, base::TimePo
         send_frame(watching, now);
         return false;
     }
-    // A reader that is behind gets the newest line when it is ready for one, not all of them.
+    // A slow reader gets the newest line when it is ready for one, and not all lines.
     if (output().empty()) send(statistics_reply(subject.statistics()), now);
     return false;
 }

@@ -21,35 +21,37 @@ namespace hapnet::control {
 /// for.
 using Answer = std::variant<std::string, WaitRequest, WatchRequest>;
 
-/// One watch of frames, which ends when this is destroyed. Appends the frame of all events since
-/// the last frame, as a JSON object without a newline; nothing if there is no frame yet.
-/// `left_out`: number of frames that were due since then.
+/// One watch of frames, which ends when this object is destroyed. A call appends the frame of all
+/// events since the last frame, as a JSON object without a newline. It appends nothing if there is
+/// no frame yet. `left_out` is the number of frames since then that were due but not sent.
 using FrameSource = std::function<void(std::string& text, std::uint64_t left_out)>;
 
-/// The program that is asked, as its clients see it. Called from the thread that serves them.
+/// The program that answers requests, as its clients see it. The thread that serves the clients
+/// calls these functions.
 struct Subject {
     std::function<Answer(std::string_view line, base::TimePoint now)> answer;
-    /// An object; what waits looks at it, and what watches is sent it.
+    /// Returns the statistics as a JSON object. Wait requests check it, and watches send it.
     std::function<nlohmann::ordered_json()> statistics;
-    /// Begins a watch of frames; null: this program has none.
+    /// Begins a watch of frames. null: this program has no frames.
     std::function<FrameSource()> frames{};
 };
 
-/// One client of a control socket: lines of JSON in, lines of JSON out, one reply to each request
-/// in the order of the requests. Does no I/O and reads no clock. Bounded: it takes no more input
-/// than room() says, and answers nothing more while the client leaves too much unread.
+/// One client of a control socket. Input and output are lines of JSON, with one reply to each
+/// request in the order of the requests. Does no I/O and reads no clock. Its memory is bounded: it
+/// accepts at most room() bytes of input, and answers no request while the client leaves too much
+/// output unread.
 class Conversation {
 public:
-    /// Longest request, for whole profiles.
+    /// The length of the longest request, enough for whole profiles.
     static constexpr std::size_t line_bytes_max = std::size_t{1} << 20;
     static constexpr std::size_t unread_bytes_max = std::size_t{256} << 10;
-    /// If more bytes than this are unread, frames are left out: the newest frame is the most
-    /// useful.
+    /// The limit of unread bytes above which frames are left out, because only the newest frame is
+    /// of use.
     static constexpr std::size_t unread_frames_bytes_max = std::size_t{64} << 10;
-    /// The time after which a client is given up that takes nothing of what it is sent.
+    /// The time after which a client that reads nothing of its output is given up.
     static constexpr base::Duration patience = std::chrono::seconds{10};
 
-    /// A line of more than `line_max` bytes is refused, and the client heard no more.
+    /// A line of more than `line_max` bytes is refused, and no later input is read.
     explicit Conversation(std::size_t line_max = line_bytes_max) : line_max_{line_max} {}
 
     /// Returns the number of bytes that on_bytes() accepts now.
@@ -58,28 +60,29 @@ public:
     /// Takes bytes that the client has sent, at most room() bytes.
     void on_bytes(std::string_view bytes);
 
-    /// The client will send no more; what it has asked is still answered.
+    /// Notes that the client will send nothing more. Requests that it has sent are still answered.
     void on_end() { has_ended_ = true; }
 
-    /// The client has disconnected. Its requests are still carried out, and no reply is sent.
+    /// Notes that the client has disconnected. Its requests are still carried out, but no reply is
+    /// sent.
     void on_gone();
     [[nodiscard]] bool is_gone() const { return is_gone_; }
 
-    /// One step: answers one request, or looks at the one that waits. Returns whether it did
-    /// something that may be followed by more at once.
+    /// Does one step: answers a request, checks the waiting one, or sends a line of a watch.
+    /// Returns true if another step may follow at once.
     bool advance(const Subject& subject, base::TimePoint now);
 
     /// Returns when to call advance() again although nothing was received; nullopt: never.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
-    /// The bytes to send. on_written() says how many of them have been sent.
+    /// Returns the bytes to send. Report the number of sent bytes with on_written().
     [[nodiscard]] std::string_view output() const;
     void on_written(std::size_t bytes, base::TimePoint now);
 
-    /// True if nothing more will come: close the connection once output() is empty.
+    /// True if no more output will come. Close the connection once output() is empty.
     [[nodiscard]] bool is_over() const;
 
-    /// True if the client leaves its replies unread: close the connection.
+    /// True if the client does not read its replies. Close the connection then.
     [[nodiscard]] bool is_stuck(base::TimePoint now) const;
 
 private:
@@ -89,11 +92,11 @@ private:
         base::TimePoint next_look;
         std::optional<base::TimePoint> end;
     };
-    /// Statistics or frames at intervals, until the next request.
+    /// Statistics or frames that are sent at intervals, until the next request.
     struct Watching {
         WatchRequest request;
         base::TimePoint next_line;
-        FrameSource frames{}; // source of the frames; null: a watch of statistics
+        FrameSource frames{}; // nullptr: a watch of statistics
         std::uint64_t left_out = 0;
     };
 
@@ -108,7 +111,7 @@ private:
 
     std::size_t line_max_;
     std::string input_;
-    std::size_t searched_ = 0; // first bytes of input_ that are known to hold no newline
+    std::size_t searched_ = 0; // length of the prefix of input_ that is known to hold no newline
     std::string output_;
     std::size_t written_ = 0; // bytes of output_ that have been sent
     base::TimePoint last_progress_{};

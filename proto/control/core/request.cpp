@@ -18,10 +18,10 @@ using Json = nlohmann::ordered_json;
 constexpr base::Duration frames_usual = 20ms;
 constexpr base::Duration frames_most = 1s;
 
-/// Refuses while it is read what would be dangerous or ambiguous once it has been.
+/// Refuses dangerous or ambiguous input during parsing.
 class Guard {
 public:
-    /// A callback of the parser: false skips the value.
+    /// A callback of the parser. The value is skipped if it returns false.
     bool on_event(int depth, Json::parse_event_t event, const Json& value)
     {
         if (error_) return false;

@@ -6,13 +6,14 @@
 
 namespace hapnet::control {
 
-/// A little of some work: 50 us at most. True when all of it is done.
+/// A step of some work, of at most 50 us. Returns true when all of the work is done.
 using Step = std::function<bool()>;
 
-/// Runs work at a time when nothing else happens, and returns once the work is done.
+/// Runs all steps of some work at times when nothing else happens, and returns once the work is
+/// done.
 using DoWork = std::function<void(const Step& step)>;
 
-/// DoWork for a program with one thread.
+/// The DoWork of a program with one thread.
 inline void do_at_once(const Step& step)
 {
     while (!step()) {}

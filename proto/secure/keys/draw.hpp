@@ -6,7 +6,8 @@
 
 namespace hapnet::secure::keys {
 
-/// A secret from the system's source of randomness: the only place that draws one. Calls prepare().
+/// Draws a secret from the system's source of randomness. No other function draws one. Calls
+/// prepare().
 [[nodiscard]] Secret draw();
 
 } // namespace hapnet::secure::keys

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t bytes_max = std::size_t{64} << 10;
 constexpr mode_t for_this_user = 0600;
 
-/// Text that is overwritten before its memory is given back.
+/// A text that is overwritten before its memory is freed.
 class SecretText {
 public:
     explicit SecretText(std::string text) : text_{std::move(text)} {}
@@ -35,7 +35,7 @@ private:
     std::string text_;
 };
 
-/// A file that was not there.
+/// Writes a new file.
 void write_new(const std::string& path, std::string text)
 {
     const SecretText secret{std::move(text)};

@@ -9,19 +9,19 @@
 
 namespace hapnet::secure::keys {
 
-/// Reads a key file. Refuses one that another user or a group may read or write
-/// (disk::read_private()), that is a symbolic link or no regular file, or that is larger than 64
-/// KiB; the complaint says the command that mends it.
+/// Reads a key file. Refuses a file that another user or a group may read or write
+/// (disk::read_private()), that is a symbolic link or not a regular file, or that is larger than 64
+/// KiB. The complaint gives the command that corrects this.
 [[nodiscard]] base::Result<KeyFile> read_key_file(const std::string& path);
 
-/// Writes a new key file with mode 0600. Refuses to replace one. Throws std::system_error naming
-/// the file when it cannot be written.
+/// Writes a new key file with mode 0600. Never replaces a file. Throws std::system_error naming the
+/// file if it cannot be written.
 void write_key_file(const std::string& path, const KeyFile& file);
-/// Exchanges a key file that is there, whole or not at all. Throws as above.
+/// Replaces an existing key file completely or not at all. Throws like write_key_file().
 void replace_key_file(const std::string& path, const KeyFile& file);
 
-/// A file that holds a circle's shared key alone, and travels to the hosts that do not have it yet.
-/// Read and written as key files are.
+/// Reads a file with only a circle's shared key, which is carried to the hosts that do not have it
+/// yet. Such files are read and written like key files.
 [[nodiscard]] base::Result<Secret> read_shared_key(const std::string& path);
 void write_shared_key(const std::string& path, const Secret& key);
 

@@ -4,8 +4,8 @@
 
 namespace hapnet::secure::keys {
 
-/// Protects this process from now on: it leaves no core dump, and no other process of the same user
-/// may look into it (PR_SET_DUMPABLE). Call it before the first secret is in memory.
+/// Protects the memory of this process from now on: it leaves no core dump, and no other process of
+/// the same user can read it (PR_SET_DUMPABLE). Call it before the first secret is in memory.
 void hide_process();
 
 } // namespace hapnet::secure::keys
