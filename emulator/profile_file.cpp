@@ -17,7 +17,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// The name of a preset may be typed in capital letters.
+/// Returns the name in lower case, because the name of a preset may be typed in capital letters.
 std::string meant_name(const std::string& typed)
 {
     std::string name = typed;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double z = 1.959964; // of a normal distribution, 95 %
 
-/// The delays that arrived, in ms.
+/// Returns the delays of the datagrams that arrived, in ms.
 std::vector<double> delays_ms(const MeasuredWay& own)
 {
     std::vector<double> values;
@@ -25,8 +25,8 @@ std::vector<double> delays_ms(const MeasuredWay& own)
     return values;
 }
 
-/// The number of independent delays that tell as much about the mean as `count` neighbours of a
-/// first-order autoregressive process with this correlation time.
+/// Returns the number of independent delays that determine the mean as precisely as `count`
+/// neighbours of a first-order autoregressive process with this correlation time.
 double independent(double count, base::Duration time, base::Duration spacing)
 {
     if (time > base::Duration{0}) {
