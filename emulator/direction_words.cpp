@@ -25,7 +25,7 @@ std::string verdict_in_words(const DirectionReport& report)
 {
     const auto reasons = report.reasons();
     if (reasons.empty()) return "valid";
-    // With fewer datagrams, p99 is the lateness of the latest one
+    // With fewer datagrams, p99 is the lateness of the latest one.
     constexpr std::uint64_t few = 100;
     const bool are_few = report.statistics->lateness.count() < few;
     const bool are_late = !report.statistics->is_punctual(report.budget);

@@ -55,7 +55,7 @@ struct StepCounts {
     }
     void add_step(bool from_lost, Side from, Side to, double share)
     {
-        // After an isolated loss the chain always returns to the gap
+        // After an isolated loss the chain always returns to the gap.
         if (from_lost && from == special) return;
         double& count = from_lost         ? (to == usual ? burst_to_gap : burst_to_good_run)
                         : from == special ? good_run_to_burst
