@@ -180,7 +180,7 @@ std::optional<double> stamp_of(std::string_view line)
 /// Collects answers by their numbers.
 class NumberedAnswers {
 public:
-    /// `wraps_at`: the number after which the numbers begin again at 0.
+    /// `wraps_at`: all numbers are below it; after the last one they begin again at 0.
     explicit NumberedAnswers(std::uint64_t wraps_at) : wraps_at_{wraps_at} {}
 
     [[nodiscard]] base::Result<void> add(const Told& told, std::optional<double> stamp)
