@@ -12,16 +12,16 @@
 
 namespace hapnet::device {
 
-/// The switches of a device, debounced: a switch counts as pressed or released once the device has
-/// reported this for 5 ms without a break. At first all are up, so that a switch that is held from
-/// the start on is a press. Switches that bounce longer are worn out, and no finger presses for a
-/// shorter time.
+/// The debounced switches of a device. A switch counts as pressed or released once the device has
+/// reported this for 5 ms without interruption. At first all switches count as released, so that a
+/// switch that is held from the start on is a press. Switches that bounce longer are worn out, and
+/// no finger presses for a shorter time.
 class Buttons {
 public:
     static constexpr base::Duration settling{std::chrono::milliseconds{5}};
 
-    /// The switches now, one bit each, 1 for down; `now` never runs backwards.
-    /// Once for each report from the device.
+    /// Takes the current state of the switches, one bit each, 1 for down. `now` never runs
+    /// backwards. Call it once for each report from the device.
     void update(std::uint8_t down, base::TimePoint now)
     {
         for (std::size_t i = 0; i < since_.size(); ++i) {
@@ -39,9 +39,9 @@ public:
         }
     }
 
-    /// The buttons that are held, one bit each; bit 0 is the primary one.
+    /// Returns the buttons that are held, one bit each; bit 0 is the primary one.
     [[nodiscard]] std::uint8_t held() const { return held_; }
-    /// Number of presses of the primary one; wraps around after 65535.
+    /// Returns the number of presses of the primary button. It wraps around after 65535.
     [[nodiscard]] std::uint16_t presses() const { return presses_; }
 
     /// Writes the buttons, the grip and the presses into a sample.
@@ -54,7 +54,7 @@ public:
 
 private:
     std::uint8_t held_ = 0;
-    std::uint8_t changing_ = 0; // switches that differ from held_, each since since_[i]
+    std::uint8_t changing_ = 0; // switches that differ from held_; switch i differs since since_[i]
     std::array<base::TimePoint, 8> since_{};
     std::uint16_t presses_ = 0;
 };

@@ -13,7 +13,7 @@
 
 namespace hapnet::device {
 
-/// The note on every device that this software knows from descriptions only.
+/// The note for every device that this software supports only from descriptions.
 inline constexpr std::string_view never_run = "never run on the physical device";
 
 /// The identity of a device.
@@ -24,7 +24,7 @@ struct Identity {
     std::string note{};    // a remark for the user, such as never_run
 };
 
-/// The clock of the loop.
+/// The source of the loop's pace.
 enum class Pacing : std::uint8_t {
     host,   // the device answers when asked
     device, // the device or its library owns the loop: see Device::pace()
@@ -44,19 +44,19 @@ struct JointLimits {
     glm::dvec3 torque_max_nm{0.0};
 };
 
-/// The abilities of a device. Places are in the device's own frame.
+/// The abilities of a device. Positions are in the device's own frame.
 struct Capabilities {
     base::Position workspace_min{{-0.08, -0.06, -0.035}};
     base::Position workspace_max{{0.08, 0.06, 0.035}};
     double force_max_n = 0.0;           // peak, in any direction
-    double force_continuous_n = 0.0;    // the motors can hold it without a time limit
+    double force_continuous_n = 0.0;    // force that the motors can hold without a time limit
     double stiffness_max_n_per_m = 0.0; // stiffest contact that stays stable; 0: not known
-    /// Greatest damping of a contact that stays stable; 0: not known. For information only: scenes
-    /// are not limited by it.
+    /// The greatest damping of a contact that stays stable; 0: not known. For information only: it
+    /// does not limit scenes.
     double damping_max_ns_per_m = 0.0;
     double resolution_m = 0.0; // smallest step of a position
     double friction_n = 0.0;   // Coulomb friction at the grip; 0: not known
-    /// No hand moves the device faster than this: 1 m/s is far above any task.
+    /// The greatest speed at which a hand moves the device: 1 m/s is far above any task.
     double speed_max_m_per_s = std::numeric_limits<double>::infinity();
     int axes_in = 3;
     int axes_out = 3; // number of axes with motors, from x on

@@ -16,10 +16,10 @@
 
 namespace hapnet::device {
 
-/// A device that was seen.
+/// A device that was found.
 struct Found {
     Identity identity;
-    std::optional<DeviceError> unusable{}; // why it cannot be used, and the cure; nullopt: it can
+    std::optional<DeviceError> unusable{}; // why it cannot be used, and the remedy; nullopt: it can
 };
 
 /// A device's report on its stylus, in the device's own frame: right-handed, x right, y up, z
@@ -29,16 +29,17 @@ struct Sample {
     base::Velocity velocity; // already smoothed as the device's resolution demands
     bool gripping = false;   // the primary button is held down
     bool docked = false;     // the stylus rests in its holder, in no hand
-    bool calibrated = true;  // false: positions are meaningless
+    bool calibrated = true;  // false: positions are not valid
     Fault fault = Fault::none;
     std::uint8_t buttons = 0;  // one bit each, debounced; bit 0 is the primary one
     std::uint16_t presses = 0; // number of presses of the primary button
-    /// Grows with every report from the device; an unchanged number marks an old sample.
+    /// Grows with every report from the device. An unchanged number marks an old sample.
     std::uint64_t sequence = 0;
 };
 
-/// True if a hand holds the stylus at the sample's place. False for an uncalibrated device, a
-/// stylus in its holder and a device with a fault, because these tell nothing about the hand.
+/// True if a hand holds the stylus at the position of the sample. False for an uncalibrated device,
+/// a stylus in its holder and a device with a fault, because their samples contain no information
+/// about the hand.
 [[nodiscard]] constexpr bool is_in_hand(const Sample& sample)
 {
     return sample.calibrated && !sample.docked && sample.fault == Fault::none;
@@ -50,12 +51,12 @@ enum class CalibrationStep : std::uint8_t {
     busy,         // the device calibrates itself: ask again
     dock_stylus,  // the person is to put the stylus into its holder
     sweep_joints, // the person is to move the grip through its whole reach, to every stop
-    failed,       // the sample's fault says why
+    failed,       // the sample's fault is the reason
 };
-/// The step in words for a status line, with what the person is to do. "" for done.
+/// Returns the step as words for a status line, with what the person is to do; "" for done.
 [[nodiscard]] std::string_view describe(CalibrationStep step);
 
-/// The start of a session, for the holder of the device. A person reads it off the screen; a
+/// The start of a session, for the holder of the device. A person reads it on the screen; a
 /// simulated hand plays its task by it.
 struct Cue {
     base::TimePoint start;   // start of the session
@@ -67,11 +68,13 @@ struct Cue {
     bool is_first = true; // the first of the hands on its side
 };
 
-/// A haptic device: up to three degrees of freedom in and out. The one interface to all of them.
+/// A haptic device with up to three degrees of freedom in and out. This is the only interface to
+/// all devices.
 ///
-/// One thread calls all but halt(). No call of a tick (calibrate, read, apply) waits longer than
-/// 2 ms for the device: where it has nothing new to say, read() gives the last sample again, with
-/// its sequence; where it has gone, with its fault. None throws and none allocates.
+/// One thread calls all functions but halt(). The functions of a tick (calibrate, read, apply) wait
+/// at most 2 ms for the device. If the device has no new report, read() returns the last sample
+/// again, with its sequence number. If the device has gone, read() returns it with a fault. No
+/// function throws, and none allocates.
 class Device {
 public:
     Device() = default;
@@ -83,30 +86,32 @@ public:
     [[nodiscard]] virtual const Identity& identity() const = 0;
     [[nodiscard]] virtual const Capabilities& capabilities() const = 0;
 
-    /// Goes on with the calibration; harmless when it is done.
+    /// Continues the calibration. Calling it has no effect when the calibration is done.
     [[nodiscard]] virtual CalibrationStep calibrate(base::TimePoint /*now*/)
     {
         return CalibrationStep::done;
     }
-    /// The stylus at `now`; `now` never runs backwards.
+    /// Returns the state of the stylus at `now`; `now` never runs backwards.
     [[nodiscard]] virtual Sample read(base::TimePoint now) = 0;
-    /// Holds this force until the next call; only a Governor can make one.
+    /// Sets the force that the device holds until the next call. Only a Governor can make such a
+    /// force.
     virtual void apply(const GovernedForce& force) = 0;
-    /// Sets zero force and switches the motors off at once, from any thread and in any state: for
-    /// watchdogs and exits. The next apply() ends it.
+    /// Sets zero force and switches the motors off at once, from any thread and in any state, for
+    /// watchdogs and exits. The next apply() ends this state.
     virtual void halt() noexcept = 0;
 
-    /// The session's start became known, or changed.
+    /// Notes that the session's start became known, or changed.
     virtual void on_cue(const Cue& /*cue*/) {}
 
-    /// A fault was latched, or has ended. A person reads it off the screen, with what to do then; a
-    /// simulated hand does it.
+    /// Notes that a fault was latched, or has ended. A person reads this on the screen, with the
+    /// instructions; a simulated hand follows the instructions.
     virtual void on_fault(bool /*is_latched*/) {}
 
-    /// Call it only when capabilities().pacing is Pacing::device. It calls `beat` once for each
-    /// cycle of the device, on the calling thread; call read() and apply() inside `beat`. Returns
-    /// when `beat` says false, or when no cycle came for 100 ms; then the host may go on at its own
-    /// pace. Lets through what `beat` throws.
+    /// Runs the loop at the pace of the device. Call it only when capabilities().pacing is
+    /// Pacing::device. It calls `beat` once for each cycle of the device, on the calling thread;
+    /// call read() and apply() inside `beat`. Returns when `beat` returns false, or when no cycle
+    /// came for 100 ms; then the host may continue at its own pace. It does not catch exceptions of
+    /// `beat`.
     virtual void pace(const std::function<bool()>& /*beat*/) {}
 };
 

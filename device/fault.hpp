@@ -13,7 +13,7 @@
 namespace hapnet::device {
 
 /// The faults of a device: a closed set. Every backend maps the errors of its library, of the
-/// kernel and of the device itself to it.
+/// kernel and of the device itself to one of them.
 enum class Fault : std::uint8_t {
     none,
     not_found,
@@ -39,25 +39,25 @@ constexpr auto names_of(base::Tag<Fault> /*enum*/)
                        "over-velocity", "not-calibrated", "disconnected", "internal");
 }
 using base::name_of;
-/// The fault in words, with what to do about it: one sentence or two. "" for none.
+/// Returns the fault as words, with what to do about it: one sentence or two; "" for none.
 [[nodiscard]] std::string_view describe(Fault fault);
 
-/// The cure for a device that was not found.
+/// The remedy for a device that was not found.
 inline constexpr std::string_view cure_of_not_found =
     "check its cable and power; hapnet-peer list-devices shows what is connected";
 
 /// The reason why a device cannot be used.
 struct DeviceError {
     Fault fault = Fault::internal;
-    std::string message;   // what happened, and the cure
-    std::int64_t code = 0; // the library's or the kernel's own number for it; 0: none
+    std::string message;   // what happened, and the remedy
+    std::int64_t code = 0; // error number of the library or the kernel; 0: none
 };
 
-/// A value, or the reason why a device gives none.
+/// A value, or the reason why opening a device failed.
 template <typename T>
 using Opened = tl::expected<T, DeviceError>;
 
-/// The failing side of an Opened.
+/// Returns the error of an Opened.
 [[nodiscard]] inline tl::unexpected<DeviceError> device_error(Fault fault, std::string message,
                                                               std::int64_t code = 0)
 {

@@ -6,13 +6,13 @@
 
 namespace hapnet::device {
 
-/// A force that may reach a hand. Zero with the motors off, unless a Governor made it: so that no
-/// way leads to a motor but through one.
+/// A force that may reach a hand. It is zero, with the motors off, unless a Governor made it. So no
+/// force reaches a motor without passing a Governor.
 class GovernedForce {
 public:
     constexpr GovernedForce() = default;
 
-    /// Newtons, in the device's own frame; zero when the motors are off.
+    /// Returns the force in newtons, in the device's own frame; zero when the motors are off.
     [[nodiscard]] constexpr const base::Force& force() const { return force_; }
     /// True if the motors are to have power.
     [[nodiscard]] constexpr bool motors_on() const { return motors_on_; }

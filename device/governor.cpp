@@ -12,7 +12,7 @@ namespace hapnet::device {
 
 namespace {
 
-/// True if the force only becomes smaller, without turning round.
+/// True if the force only becomes smaller, without changing its direction.
 bool is_release(const base::Force& from, const base::Force& to)
 {
     const glm::dvec3& a = from.value;
@@ -56,7 +56,7 @@ GovernedForce Governor::govern(const ForceRequest& request, const Sample& sample
 
 void Governor::latch(const Latched& cause)
 {
-    // A loop that stood still without force has done no harm.
+    // A stall of the loop without force has done no harm.
     if (cause.trip == Trip::loop && strength_ == 0.0) return;
     if (!latch_.close(cause)) return;
     to_zero();
@@ -87,7 +87,7 @@ void Governor::to_zero()
     from_zero_ = true;
 }
 
-/// The time since the last tick; after a stall as if this were the first one.
+/// Returns the time since the last tick; after a stall it acts as if this were the first one.
 base::Duration Governor::pass(base::TimePoint now)
 {
     const base::Duration gap = last_time_ ? now - *last_time_ : base::Duration{0};
@@ -131,7 +131,7 @@ void Governor::count(Finding finding)
 
 Governor::Step Governor::step_of(base::Duration gap) const
 {
-    // A late tick fades by all the time that has passed, but ramps in by one tick only.
+    // A late tick fades for all the time that has passed, but ramps up for one tick only.
     const double seconds = base::to_seconds(std::min(gap, limits_.tick));
     return {.gap = gap,
             .ramp = seconds / base::to_seconds(limits_.ramp_in),
@@ -191,9 +191,9 @@ base::Force Governor::within_energy(const base::Force& wanted, const Sample& sam
     return force;
 }
 
-/// Call it before anything else in a tick: the last force was held until now. A latch in the
-/// meantime makes no difference: a record does not show whether a watchdog saw a stall before the
-/// governor did.
+/// Accounts for the last force, which was held until now. Call it before anything else in a tick.
+/// It does not matter whether a fault was latched in the meantime: a record does not show whether a
+/// watchdog noticed a stall before the governor did.
 void Governor::observe(const Sample& sample, base::Duration gap)
 {
     const bool has_place = sample.calibrated && base::is_finite(sample.hip) &&

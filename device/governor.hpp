@@ -19,7 +19,7 @@
 
 namespace hapnet::device {
 
-/// Faults that were latched, by what latched them: see Trip.
+/// The number of latched faults, by the rule that latched them; see Trip.
 struct FaultCounts {
     std::uint64_t device = 0;
     std::uint64_t silence = 0;
@@ -68,7 +68,7 @@ struct GovernorCounters {
     FaultCounts faults;
     std::uint64_t resets = 0;
 };
-/// The fields, except the energy, which is reported with its limits.
+/// Describes the fields except the energy, which is reported with its limits.
 constexpr auto fields_of(base::Tag<GovernorCounters>)
 {
     using C = GovernorCounters;
@@ -96,19 +96,19 @@ constexpr auto fields_of(base::Tag<GovernorCounters>)
 /// The force that the scene requests for a hand.
 struct ForceRequest {
     base::Force force;      // in the device's frame
-    bool permitted = false; // there is a session, and its other side is heard
+    bool permitted = false; // there is a session, and data from its other side arrives
 };
 
 /// The state of a governor.
 enum class GovernorState : std::uint8_t {
     off,         // no report from the device yet
-    calibrating, // positions mean nothing yet
-    ready,       // zero force: docked, or nothing is permitted
-    ramping,     // at part of the strength: the force fades in or out
+    calibrating, // positions are not valid yet
+    ready,       // zero force: the stylus is docked, or no force is permitted
+    ramping,     // part of the force: it fades in or out
     active,
     fault, // latched: zero force until an operator has acted
-    /// A governor itself never has this state: a person has stopped the force, and the loop keeps
-    /// it from the device.
+    /// A governor itself never has this state. A person has stopped the force, and the loop keeps
+    /// the force from the device.
     withheld,
 };
 
@@ -118,37 +118,39 @@ constexpr auto names_of(base::Tag<GovernorState> /*enum*/)
     return base::names("off", "calibrating", "ready", "ramping", "active", "fault", "withheld");
 }
 
-/// Stands between what the scene wants and what a motor gets; the only way to a motor. Its rules,
-/// their numbers and the reasons for them: docs/design/governor.md. In short: zero at once for what
-/// is no number, for a stylus that is docked, uncalibrated, silent, too fast or at fault, and after
-/// a stall of the loop; without permission the force fades; after any zero it ramps in again; the
-/// norm is clamped with the direction kept, to the peak, to what warm motors bear and to what the
-/// joints' motors have; the change per tick is limited. Faults of the device are latched.
+/// Limits the force that the scene requests before it reaches a motor. Every force passes through a
+/// Governor. docs/design/governor.md describes its rules, their numbers and the reasons for them.
+/// In short: the force is zero at once if it is not a number, if the stylus is docked,
+/// uncalibrated, silent, too fast or at fault, and after a stall of the loop. Without permission
+/// the force fades out. After any zero force it ramps up again. The norm is clamped without
+/// changing the direction, to the peak, to the limit of warm motors and to the limits of the
+/// joints' motors. The change per tick is limited. Faults of the device are latched.
 class Governor {
 public:
     /// The limits must be valid: see validate().
     explicit Governor(const GovernorLimits& limits);
 
-    /// The force to apply now. Call once per tick, with what the device just said; `now` never runs
-    /// backwards.
+    /// Returns the force to apply now. Call it once per tick, with the newest sample of the device;
+    /// `now` never runs backwards.
     [[nodiscard]] GovernedForce govern(const ForceRequest& request, const Sample& sample,
                                        base::TimePoint now);
 
-    /// Latches a fault that another party, such as a watchdog, has found: the force is zero from
-    /// the next tick on.
+    /// Latches a fault that another component, such as a watchdog, has found. The force is zero
+    /// from the next tick on.
     void latch(const Latched& cause);
-    /// An operator ends the fault; it comes back if its cause remains.
+    /// Ends the fault, on the request of an operator. The fault is latched again if its cause
+    /// remains.
     void reset();
 
     [[nodiscard]] GovernorState state() const;
-    /// The latched fault; Fault::none in any state but fault.
+    /// Returns the latched fault. It is Fault::none in any state but fault.
     [[nodiscard]] const Latched& fault() const { return latch_.cause(); }
     [[nodiscard]] const GovernorCounters& counters() const { return counters_; }
     [[nodiscard]] const GovernorLimits& limits() const { return limits_; }
-    /// Heat of the motors by the forces so far, as a share of the limit. Above 1 the force limit
-    /// decreases.
+    /// Returns the heat of the motors due to the forces so far, as a share of the limit. Above 1
+    /// the force limit decreases.
     [[nodiscard]] double heat() const { return heat_.heat(); }
-    /// The energy into the hand; nullptr where the limits have none for it.
+    /// Returns the energy into the hand; nullptr if the limits have none for it.
     [[nodiscard]] const EnergyFigures* energy() const
     {
         return energy_ ? &energy_->figures() : nullptr;
@@ -181,9 +183,9 @@ private:
     SampleCheck check_;
     FaultLatch latch_;
     Finding finding_ = Finding::unheard; // result for the last sample
-    Step step_;                          // for the last gap; constant in a steady loop
+    Step step_;                          // step of the last gap; constant in a steady loop
     base::Force last_;                   // force from which the slew limit of the next tick starts
-    base::Force held_;                   // force that the device was given last
+    base::Force held_;                   // force last given to the device
     double strength_ = 0.0;              // share of the force that passes, 0 to 1
     bool from_zero_ = true;              // not yet at full strength since the last zero
     std::optional<base::TimePoint> last_time_;

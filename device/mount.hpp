@@ -6,9 +6,9 @@
 
 namespace hapnet::device {
 
-/// The place of a device in the scene: scene = offset + scale * device. One scale for all axes, or
-/// pushing along one would do work along another. Forces go back through the same scale, so that
-/// the power at the hand is the power in the scene.
+/// The position of a device in the scene: scene = offset + scale * device. All axes have one scale,
+/// because otherwise pushing along one axis would do work along another. Forces are converted back
+/// by the same scale, so that the power at the hand is the power in the scene.
 struct Mount {
     base::Displacement offset{};
     double scale = 1.0; // metres of the scene per metre of the device; above 0

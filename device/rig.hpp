@@ -25,22 +25,24 @@ constexpr auto fields_of(base::Tag<RigCounters>)
         base::member("repeated_most", &C::repeated_most, "The longest row of these."));
 }
 
-/// A device mounted in the scene, with the governor in front of its motors. Loops use devices only
-/// through it. Inputs and outputs are in the scene's frame.
+/// A device mounted in the scene, with the governor before its motors. Loops use devices only
+/// through this class. Inputs and outputs are in the scene's frame.
 class Rig {
 public:
-    /// The limits of the device itself hold, too: see limits_for().
+    /// The limits of the device itself apply, too; see limits_for().
     Rig(std::unique_ptr<Device> device, const GovernorLimits& limits, const Mount& mount = {});
 
-    /// Calibrates as far as that is needed, and reads.
+    /// Calibrates as far as necessary, and reads.
     [[nodiscard]] const Sample& read(base::TimePoint now);
-    /// Governs the wanted force, applies the result and returns it, at the hand. Once per read().
+    /// Governs the wanted force, applies the result, and returns the result at the hand. Call it
+    /// once per read().
     base::Force apply(const base::Force& wanted, bool permitted, base::TimePoint now);
-    /// Governs the force like apply(), but tells the device zero: it was halted after read(), so a
-    /// force for that place may be outdated. The governor notices the halt in the next tick.
+    /// Governs the force like apply(), but gives the device zero force: it was halted after read(),
+    /// so a force for that position may be outdated. The governor notices the halt in the next
+    /// tick.
     base::Force withhold(const base::Force& wanted, bool permitted, base::TimePoint now);
 
-    /// The start of a session, for the holder of the device.
+    /// Passes the start of a session on to the holder of the device.
     void on_cue(const Cue& cue) { device_->on_cue(cue); }
 
     [[nodiscard]] GovernorState governor_state() const { return governor_.state(); }
@@ -50,7 +52,7 @@ public:
     [[nodiscard]] Device& device() { return *device_; }
     [[nodiscard]] const Device& device() const { return *device_; }
     [[nodiscard]] const Mount& mount() const { return mount_; }
-    /// The calibration step as of the last read().
+    /// Returns the calibration step as of the last read().
     [[nodiscard]] CalibrationStep calibration() const { return calibration_; }
 
 private:
@@ -63,8 +65,8 @@ private:
     Mount mount_;
     CalibrationStep calibration_ = CalibrationStep::done;
     RigCounters counters_;
-    std::uint64_t repeated_ = 0; // latest reads in a row without a new sample
-    bool is_at_fault_ = false;   // fault state that the device was told last
+    std::uint64_t repeated_ = 0; // consecutive latest reads without a new sample
+    bool is_at_fault_ = false;   // fault state last reported to the device
     Sample own_;                 // last sample, in the device's frame
     Sample scene_;               // last sample, in the scene's frame
 };

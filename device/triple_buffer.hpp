@@ -13,7 +13,7 @@ namespace hapnet::device {
 template <typename T>
 class TripleBuffer {
 public:
-    /// The writing thread.
+    /// Stores a value. For the writing thread.
     void put(const T& value)
     {
         places_[given_] = value;
@@ -28,7 +28,7 @@ public:
         taken_ = between_.exchange(taken_, std::memory_order_acq_rel) & place;
         return true;
     }
-    /// The reading thread: the value taken last.
+    /// Returns the value that was taken last. For the reading thread.
     [[nodiscard]] const T& value() const { return places_[taken_]; }
 
 private:

@@ -9,7 +9,7 @@
 
 namespace hapnet::device {
 
-/// The identity that the kernel shows of a USB device, for the backend that drives it.
+/// The kind of device node through which the backend accesses a USB device.
 enum class UsbNode : std::uint8_t { usb, hidraw, tty };
 
 enum class UsbKind : std::uint8_t { falcon, force_board, spacemouse, touch, force_dimension };
@@ -17,7 +17,8 @@ enum class UsbKind : std::uint8_t { falcon, force_board, spacemouse, touch, forc
 /// Stands for all products of a vendor.
 inline constexpr std::uint16_t any_product = 0;
 
-/// A device that is known by its numbers. udev/60-hapnet.rules opens just these to their user.
+/// A device that is identified by its numbers. udev/60-hapnet.rules grants access to exactly these
+/// to their user.
 struct UsbId {
     UsbKind kind;
     UsbNode node;
@@ -26,8 +27,9 @@ struct UsbId {
     std::string_view name;
 };
 
-/// The SpaceMouses are from the list of spacenavd and of other public drivers, the Touches from
-/// public udev rules; of Force Dimension only the vendor's number is known.
+/// The numbers of the SpaceMouses are from the list of spacenavd and of other public drivers, and
+/// those of the Touches from public udev rules. For Force Dimension only the vendor's number is
+/// known.
 inline constexpr std::array usb_ids{
     UsbId{UsbKind::falcon, UsbNode::usb, 0x0403, 0xcb48, "Novint Falcon"},
     UsbId{UsbKind::force_board, UsbNode::hidraw, 0x1209, 0xffb0, "OpenFFBoard"},
@@ -60,7 +62,7 @@ inline constexpr std::array usb_ids{
     UsbId{UsbKind::force_dimension, UsbNode::usb, 0x1451, any_product, "Force Dimension"},
 };
 
-/// nullptr: unknown.
+/// Returns the entry with these numbers; nullptr: unknown.
 [[nodiscard]] constexpr const UsbId* find_usb_id(std::uint16_t vendor, std::uint16_t product)
 {
     const auto* const found = std::find_if(usb_ids.begin(), usb_ids.end(), [&](const UsbId& id) {

@@ -9,13 +9,13 @@
 
 namespace hapnet::device {
 
-/// A velocity from positions that come in counts: their differences through a first-order
+/// Computes a velocity from positions in encoder counts: their differences through a first-order
 /// low-pass.
 class VelocityFilter {
 public:
     explicit VelocityFilter(double cutoff_hertz) : cutoff_hertz_{cutoff_hertz} {}
 
-    /// `now` never runs backwards; the first position gives no motion.
+    /// Returns the velocity. `now` never runs backwards. The first position gives zero.
     [[nodiscard]] base::Velocity at(base::Position position, base::TimePoint now);
 
 private:
@@ -27,7 +27,7 @@ private:
     double cutoff_hertz_;
     std::optional<Last> last_;
     glm::dvec3 velocity_{0.0};
-    base::Duration elapsed_{}; // time step that keeps_ and gain_per_s_ are for
+    base::Duration elapsed_{}; // time step for which keeps_ and gain_per_s_ were computed
     double keeps_ = 0.0;
     double gain_per_s_ = 0.0;
 };

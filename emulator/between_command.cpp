@@ -21,7 +21,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// A command among others, and its end of the wire.
+/// A command, and its end of the wire.
 struct Place {
     char letter = 'A';
     std::string name; // "a"
@@ -80,7 +80,7 @@ FrameSession::Setup session_of(const BetweenOptions& options, const std::vector<
     return setup;
 }
 
-/// Returns the names that settings can use: of two commands the only path has none.
+/// Returns the names that settings can use. With two commands, the only path has no name.
 PathNames names_of(const ports::Frames::Setup& frames)
 {
     if (frames.ends.size() > 2) return {.links = frames.path_names()};

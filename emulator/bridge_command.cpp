@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// Makes an interface hand over frames as they arrived, and restores its settings when this ends.
+/// Makes an interface pass on frames as they arrived, and restores its settings in the destructor.
 class PlainReception {
 public:
     explicit PlainReception(const std::string& interface)

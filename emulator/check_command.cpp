@@ -31,7 +31,7 @@ std::string in_words(std::string_view title, const Conditions& conditions,
     return text;
 }
 
-/// The conditions of a flow when the run begins.
+/// Prints the conditions of a flow when the run begins.
 void print_flow(const Profile& profile, const Flow& flow, const CheckOptions& options)
 {
     const Profile own = profile_of(profile, flow_path("", flow.name));
@@ -54,7 +54,7 @@ void print_flow(const Profile& profile, const Flow& flow, const CheckOptions& op
 
 } // namespace
 
-/// The profile, and what it means as comments: the whole reads as a profile again.
+/// Prints the profile, and its meaning as comments. The output can be read as a profile.
 base::Result<int> run(const CheckOptions& options)
 {
     std::vector<std::string> netem_warnings;

@@ -14,15 +14,15 @@ namespace hapnet::emulator {
 
 using Checks = std::vector<base::Condition>;
 
-/// The error names the first check whose key leads nowhere in the statistics. Asked before the run:
-/// a slip of the finger is not to show after it.
+/// Returns an error that names the first check whose key does not exist in the statistics. Call it
+/// before the run, so that a mistyped key does not show only after the run.
 [[nodiscard]] base::Result<void> ensure_keys(const Checks& checks,
                                              const nlohmann::ordered_json& statistics);
 
 [[nodiscard]] std::vector<CheckReport> judged(const Checks& checks,
                                               const nlohmann::ordered_json& statistics);
 
-/// A line for each of the statistics' checks that was not met: "NOT MET: up.received>=1000 is
+/// Returns a line for each check in the statistics that was not met: "NOT MET: up.received>=1000 is
 /// required, and it is 42".
 [[nodiscard]] std::string not_met(const nlohmann::ordered_json& statistics);
 

@@ -97,10 +97,10 @@ bool CommandRun::has_a_started()
     return true;
 }
 
-/// A first: it may still have something to say to the others.
+/// Ends A first, because it may still have something to send to the others.
 void CommandRun::end_all(base::TimePoint now)
 {
-    // A signal that the terminal sends reaches A, too.
+    // A signal from the terminal also reaches A.
     const bool knows = stop_.requested() && stop_.came_to_group();
     if (!a_.exit_code()) {
         end_of_a_.pursue(knows ? 0 : stop_.number(), now);

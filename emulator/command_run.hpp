@@ -14,32 +14,33 @@
 
 namespace hapnet::emulator {
 
-/// Command A beside the rounds of a session, and those that it talks to: from the start of all to
-/// their end.
+/// Runs command A and the other processes that it communicates with, beside the rounds of a
+/// session. It lasts from the start of all of them until all have ended.
 class CommandRun {
 public:
     /// A process at another end of the wire.
     struct Other {
         net::ChildCommand& process;
         std::string name; // "command B"
-        /// False for a process that has to be started. A then waits until it listens on a port, 1 s
-        /// at most.
+        /// False for a process that has to be started. A then waits until that process listens on a
+        /// port, 1 s at most.
         bool runs_already = false;
     };
 
     CommandRun(net::ChildCommand& a, const std::vector<Other>& others, FrameSession& session,
                const net::StopSignal& stop);
 
-    /// Gives the exit code of A.
+    /// Returns the exit code of A.
     int run();
 
 private:
-    /// The end of a process that has been told to end.
+    /// Ends a process.
     class Ending {
     public:
         explicit Ending(net::ChildCommand& process) : process_{process} {}
-        /// Sends it this signal, once; SIGTERM when it has not ended 2 s later, and SIGKILL a
-        /// second after that. `number` 0: it has that signal already.
+        /// Sends signal `number` to the process at the first call. Later calls send SIGTERM once 2
+        /// s have passed since the first call, and SIGKILL once 3 s have passed. `number` 0: the
+        /// process has received its signal already, so none is sent at the first call.
         void pursue(int number, base::TimePoint now);
         [[nodiscard]] bool is_over() { return process_.exit_code().has_value(); }
 

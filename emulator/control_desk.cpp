@@ -74,7 +74,7 @@ void ControlDesk::run()
             if (base::is_due(next_look, now)) next_look = setup_.look(now, work);
         }
     } catch (const control::LoopHasEnded&) {
-        // The run is over: nothing more is to be said.
+        // The run is over, so nothing more has to be reported.
     }
 }
 

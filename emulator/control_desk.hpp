@@ -20,44 +20,45 @@
 namespace hapnet::emulator {
 
 /// Does the work of a run that takes time and is not urgent, on a thread of its own beside the
-/// relaying one. It answers the clients of the control socket, reads the profile again, and tells a
-/// terminal how the run goes. It orders work on the paths from the relaying thread, in Turns.
+/// relaying one. It answers the clients of the control socket, reads the profile again, and shows
+/// the progress of the run on a terminal. It submits work on the paths to the relaying thread, in
+/// Turns.
 class ControlDesk {
 public:
     struct Setup {
         std::optional<std::string> socket{}; // path of the Unix socket
         std::optional<std::string> files{};  // the folder whose files clients may name
-        /// The emulation without its work and its folder, which the desk adds.
+        /// The emulation without `work` and `folder`, which the desk adds.
         Emulation emulation;
-        /// Reads the profile again; null: there is none.
+        /// Reads the profile again. null: the run has no profile file.
         std::function<void(Emulation&)> reload{};
-        /// Work that is done from time to time. Returns when the next time is.
+        /// Does periodic work. Returns the time at which it is to be called again.
         std::function<std::optional<base::TimePoint>(base::TimePoint now,
                                                      const control::DoWork& work)>
             look{};
     };
 
     /// Makes the socket and the thread, which waits for begin(). Everything that `setup` refers to
-    /// outlives it. Throws std::system_error when the socket cannot be made or the folder not be
-    /// opened. The signals that are to reach the calling thread alone are blocked already. Without
-    /// anything to do there is no thread.
+    /// must outlive the desk. Block the signals that only the calling thread may receive before
+    /// this call. If there is nothing to do, no thread is made. Throws std::system_error when the
+    /// socket cannot be made or the folder cannot be opened.
     explicit ControlDesk(Setup setup);
-    /// Ends the thread. Open requests of clients are given up.
+    /// Ends the thread. Open requests of clients are abandoned.
     ~ControlDesk();
     ControlDesk(const ControlDesk&) = delete;
     ControlDesk& operator=(const ControlDesk&) = delete;
 
     // Call these on the relaying thread.
 
-    /// Lets the desk begin. From now on the calling thread does the work of turns(), and does not
-    /// touch the parts that the desk uses. It may be called again.
+    /// Lets the desk begin. From this call on, the calling thread does the work of turns(), and
+    /// does not touch the parts that the desk uses. It may be called more than once.
     void begin();
-    /// The work that it is to do.
+    /// Returns the queue of work for the relaying thread.
     [[nodiscard]] control::Turns& turns() { return turns_; }
     [[nodiscard]] const control::Turns& turns() const { return turns_; }
-    /// Orders the profile to be read again.
+    /// Orders the desk to read the profile again.
     void reload();
-    /// No more is answered; returns once the thread has ended.
+    /// Stops answering. Returns once the thread has ended.
     void close();
 
 private:

@@ -12,7 +12,7 @@ namespace {
 
 double in_us(base::Duration duration) { return base::to_nanoseconds(duration) / 1e3; }
 
-/// "160.00 ms (sd 2.89)"
+/// Returns "160.00 ms (sd 2.89)".
 std::string delay_in_words(const base::Moments& moments)
 {
     const auto in_ms = [](base::Duration duration) { return 1e3 * base::to_seconds(duration); };
@@ -20,12 +20,13 @@ std::string delay_in_words(const base::Moments& moments)
                        in_ms(moments.sd.value_or(base::Duration{0})));
 }
 
-/// Says in words if the emulator did what it was asked to, and nothing else.
+/// Returns a sentence on whether the emulator did what it was asked to, and nothing else.
 std::string verdict_in_words(const DirectionReport& report)
 {
     const auto reasons = report.reasons();
     if (reasons.empty()) return "valid";
-    constexpr std::uint64_t few = 100; // with fewer datagrams p99 is the latest one
+    // With fewer datagrams, p99 is the lateness of the latest one.
+    constexpr std::uint64_t few = 100;
     const bool are_few = report.statistics->lateness.count() < few;
     const bool are_late = !report.statistics->is_punctual(report.budget);
     return fmt::format("NOT VALID: {}{}", fmt::join(reasons, "; "),

@@ -9,10 +9,10 @@
 
 namespace hapnet::emulator {
 
-/// A line for a person.
+/// Returns a line about a direction for a person.
 [[nodiscard]] std::string in_words(std::string_view title, const DirectionReport& report);
 
-/// A part of a line on a terminal.
+/// Returns the part of a terminal's status line that is about a direction.
 [[nodiscard]] std::string in_short(std::string_view title, const DirectionReport& report);
 
 } // namespace hapnet::emulator

@@ -64,14 +64,14 @@ AllPaths together(const std::vector<std::unique_ptr<Paths>>& parts)
 }
 
 /// One run, from bound sockets to written files. The thread that constructs it relays the first
-/// part; `workers_` relay the others, the recorder writes, and the control desk does all that is no
-/// hurry. `Run`: what its reports are made from, with its port.
+/// part; `workers_` relay the others, the recorder writes files, and the control desk does all work
+/// that is not urgent. `Run`: the type of the run for its reports, with its port.
 template <typename Run>
 class Session {
     using Port = typename Run::Port;
 
 public:
-    /// `make(paths, recorder)` gives the port.
+    /// `make(paths, recorder)` returns the port.
     template <typename MakePort>
     Session(const Plan& plan, base::TimePoint start, const MakePort& make)
         : start_{start},
@@ -86,7 +86,8 @@ public:
         const Options& options = run_.options;
         if (options.duration) end_ = start_ + *options.duration;
         desk_.emplace(duties());
-        // This comes after the other threads were made. Most of the slab is never used.
+        // This comes after the other threads were made. Only used memory is locked, as most of the
+        // slab is never used.
         run_.real_time = net::request_real_time(40, net::Locking::as_used);
     }
 
@@ -105,7 +106,7 @@ public:
         net::print_now(ready_line(run_));
     }
 
-    /// The manager hears that this loop moves.
+    /// Relays until the run is stopped, and reports to the service manager that this loop is alive.
     void relay_until_stopped(net::StopSignal& stop, net::ServiceManager& manager)
     {
         Workers workers{other_parts(), run_.options.timing};
@@ -121,8 +122,8 @@ public:
         auto now = start_;
         while (!stop.requested() && !is_stopped_ && !workers.has_failed() &&
                !base::is_due(end_, now)) {
-            // requested() may have read a hangup from the descriptor, which then ends no wait. So
-            // this stands between requested() and the wait.
+            // requested() may have taken a hangup from the descriptor, which then ends no wait. So
+            // this must be between requested() and the wait.
             if (stop.reload_requested()) desk_->reload();
             pacer.wait(descriptors, base::earlier(next_deadline(), manager.next_deadline()));
             now = relay(0);
@@ -139,14 +140,14 @@ public:
         status_.finish();
     }
 
-    /// The error names a check that no statistics can meet.
+    /// Returns an error that names a check whose key does not exist in the statistics.
     [[nodiscard]] base::Result<void> ensure_checks()
     {
         return ensure_keys(run_.scenario.checks, statistics(control::do_at_once));
     }
 
-    /// Writes the files and says how it went; gives the exit code. Throws, after that, what kept
-    /// the recorder from its files.
+    /// Writes the files and reports the outcome. Returns the exit code. If the recorder could not
+    /// write its files, it throws that error after everything else is done.
     int finish()
     {
         state_.is_over = true;
@@ -158,7 +159,7 @@ public:
     }
 
 private:
-    /// A round of one part, on its thread; gives the time.
+    /// Runs a round of one part, on its thread. Returns the time.
     base::TimePoint relay(std::size_t number)
     {
         auto& part = *port_->parts()[number];
@@ -178,7 +179,7 @@ private:
         return base::earlier(deadline, port_->parts()[number]->next_deadline());
     }
 
-    /// The deadline of the first part, and of the run.
+    /// Returns the deadline of the first part, or of the run.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
         auto deadline = next_deadline(0);
@@ -186,7 +187,7 @@ private:
         return base::earlier(deadline, desk_->turns().next_deadline());
     }
 
-    /// All but the first.
+    /// Returns all parts but the first.
     [[nodiscard]] std::vector<Workers::Part> other_parts()
     {
         std::vector<Workers::Part> parts;
@@ -198,7 +199,7 @@ private:
         return parts;
     }
 
-    /// Returns the present statistics, made by the thread that owns the state at the time.
+    /// Returns the current statistics, made by the thread that owns the state at the time.
     [[nodiscard]] nlohmann::ordered_json statistics(const control::DoWork& work)
     {
         look_at(run_, *port_, work, state_);
@@ -232,7 +233,7 @@ private:
         return setup;
     }
 
-    /// Prints what a person should know by now. Returns when to call it again.
+    /// Prints what is new for a person. Returns when to call it again.
     std::optional<base::TimePoint> look_after(base::TimePoint now, const control::DoWork& work)
     {
         if (const auto trouble = recorder_.keep_trouble()) status_.say(*trouble);
@@ -246,7 +247,7 @@ private:
         return base::earlier(keeper_next, status_.next_deadline());
     }
 
-    /// Reads the profile again. One that is wrong changes nothing.
+    /// Reads the profile again. A profile with an error changes nothing.
     void reload(Emulation& emulation)
     {
         Options options = run_.options;
@@ -271,7 +272,7 @@ private:
                                 *run_.options.conditions.profile, done->generation));
     }
 
-    /// Once, and while there is time to make room or to begin again.
+    /// Reports problems with the files once, while there is time to make room or to begin again.
     void tell_of_files()
     {
         if (!recorder_.has_failed() || has_told_of_files_.exchange(true)) return;
@@ -280,8 +281,9 @@ private:
             "on, but its files will end here");
     }
 
-    /// The relay goes on, as an address may come back. Looking takes a system call, so it looks in
-    /// one round of many; until it does, a change ends every wait.
+    /// Reports changes of the addresses. The relay continues, because an address may come back.
+    /// Each look takes a system call, so it looks in one of many rounds. Until then, a change ends
+    /// every wait.
     void tell_of_addresses()
     {
         constexpr unsigned rounds = 64;
@@ -317,8 +319,8 @@ private:
     std::optional<ControlDesk> desk_; // last member: its thread uses the others
 };
 
-/// The signals that end it or, with a profile to read again, also SIGHUP: without one a closed
-/// terminal ends the run.
+/// Returns the handling of SIGHUP. With a profile the run reads the profile again. Without one
+/// SIGHUP, for example of a closed terminal, ends the run.
 net::Hangup hangup_of(const Options& options)
 {
     return options.conditions.profile ? net::Hangup::reload : net::Hangup::stop;
@@ -338,7 +340,7 @@ base::Result<int> run_session(const Plan& plan, base::TimePoint start, const Mak
     return session.finish();
 }
 
-/// The interfaces of a link in the capture.
+/// Returns the names of the interfaces of a link in the capture.
 CaptureNames capture_names_of(const std::string& link)
 {
     if (!is_pair(link)) return {link + " side A", link + " side B"};

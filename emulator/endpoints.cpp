@@ -14,7 +14,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// One side as it was typed, and what its parts are called.
+/// One side as it was typed, and the names of its options.
 struct TypedSide {
     const net::HostPort& listen;
     const std::vector<net::AddressPattern>& ends;
@@ -22,14 +22,14 @@ struct TypedSide {
     std::string end_name;    // "--a"
 };
 
-/// A side with its names looked up.
+/// A side whose names are resolved.
 struct Side {
     net::Endpoint listen;
     std::optional<net::Endpoint> peer;
     std::optional<net::AddressSet> allowed;
 };
 
-/// Looks up where datagrams go, and reports a name that has several addresses: the program may
+/// Resolves where datagrams are sent, and reports a name with several addresses: the program may
 /// listen on another one than the first.
 net::Endpoint look_up_destination(const net::HostPort& where, const std::string& option,
                                   int family = AF_UNSPEC)
@@ -111,7 +111,7 @@ base::Result<Endpoints> look_up_sides(const TypedSide& typed_a, const TypedSide&
         a->listen, b->listen, a->peer, b->peer, std::move(a->allowed), std::move(b->allowed)};
 }
 
-/// A datagram that is sent to the emulator itself would go round for ever.
+/// Refuses links that send to the emulator itself: such datagrams would circulate for ever.
 base::Result<std::vector<NamedEndpoints>> without_loop(std::vector<NamedEndpoints> links)
 {
     const auto is_own = [&](const net::Endpoint& peer) {

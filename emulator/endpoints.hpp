@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-/// The endpoints of both sides, looked up.
+/// The endpoints of both sides, resolved from names.
 struct Endpoints {
     net::Endpoint listen_a;
     net::Endpoint listen_b;
@@ -29,15 +29,16 @@ struct NamedEndpoints {
     Endpoints endpoints;
 };
 
-/// A server, and who may be its client.
+/// A server, and the addresses that may be its clients.
 struct ServerAndClients {
     net::Endpoint listen;
     net::Endpoint server;
     net::AddressSet allowed;
 };
 
-// They look up the names. The error is one of usage: combinations that cannot work or are not safe.
-// They throw std::system_error when a name does not resolve or an endpoint cannot be reached.
+// These functions resolve names. The error is one of usage: combinations that cannot work or are
+// not safe. They throw std::system_error when a name does not resolve or an endpoint cannot be
+// reached.
 
 [[nodiscard]] base::Result<std::vector<NamedEndpoints>> look_up(const Options& options);
 [[nodiscard]] base::Result<std::vector<NamedEndpoints>> look_up(const LinkOptions& options);

@@ -21,7 +21,7 @@ base::Result<FatesOfPaths> read_fates(const std::string& path)
     }
     std::ifstream file{path, std::ios::binary};
     if (!file) return base::fail(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
-    // Whatever else it is may have no end.
+    // Reads only the beginning, because anything but a file of fates may have no end.
     std::string text(fates_header.size(), '\0');
     text.resize(static_cast<std::size_t>(file.read(text.data(), std::ssize(text)).gcount()));
     bool is_known = false;

@@ -9,7 +9,7 @@
 
 namespace hapnet::emulator {
 
-/// The fates in a file, by the names of their paths; the error names it, and the line.
+/// Returns the fates in a file, by the names of their paths. The error names the file and the line.
 [[nodiscard]] base::Result<FatesOfPaths> read_fates(const std::string& path);
 
 } // namespace hapnet::emulator

@@ -22,7 +22,7 @@ namespace {
 
 void say_of_frames(std::string_view text) { net::say("hapnet-emulator", text); }
 
-/// "frames from B: ...", of the interface that is called b.
+/// Returns "frames from B: ...", for the interface with the name b.
 std::string frames_in_words(const std::string& name, const InterfaceReport& side)
 {
     const std::uint64_t overflowed = side.overflowed.value_or(0);
@@ -38,7 +38,8 @@ std::string frames_in_words(const std::string& name, const InterfaceReport& side
     return text + "\n";
 }
 
-/// With several paths, each has its own fates, and two interfaces in the capture.
+/// Returns the plan. With several paths, each has fates of its own, and two interfaces in the
+/// capture.
 Plan plan_of_frames(const Options& options, const Scenario& scenario,
                     const ports::Frames::Setup& setup)
 {
@@ -74,7 +75,8 @@ FrameSession::FrameSession(const Plan& plan, Setup setup)
 {
     if (plan.options.duration) end_ = start_ + *plan.options.duration;
     desk_.emplace(duties());
-    // This comes after the other threads were made. Most of the slab is never used.
+    // This comes after the other threads were made. Only used memory is locked, as most of the slab
+    // is never used.
     run_.real_time = net::request_real_time(40, net::Locking::as_used);
 }
 

@@ -25,40 +25,42 @@
 
 namespace hapnet::emulator {
 
-/// A run between network interfaces, from their sockets to the written files. Everything but
-/// the recorder's writing and the control happens on the thread that constructs it.
+/// A run between network interfaces, from opening their sockets to writing the files. Everything
+/// happens on the thread that constructs it, except for the recorder's writing and the control.
 class FrameSession {
 public:
     struct Setup {
         std::string command;                  // "between"
-        std::optional<std::string> through{}; // the program that stands behind B, if one does
+        std::optional<std::string> through{}; // the program behind B, if there is one
         ports::Frames::Setup frames;
     };
 
-    /// The options and the scenario outlive it. Throws std::system_error.
+    /// The options and the scenario must outlive the session. Throws std::system_error.
     FrameSession(const Options& options, const Scenario& scenario, Setup setup);
 
-    /// The error names a check that no statistics can meet.
+    /// Returns an error that names a check whose key does not exist in the statistics.
     [[nodiscard]] base::Result<void> ensure_checks();
 
     /// Prints the conditions of this run, and warnings, on stderr.
     void announce() const;
 
-    /// Runs one round: sleeps until a frame, one of `descriptors` or the deadline calls, and does
-    /// the work that is due. Returns the time.
+    /// Runs one round: sleeps until a frame arrives, one of `descriptors` becomes readable or the
+    /// deadline comes, and does the work that is due. Returns the time.
     base::TimePoint turn(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
 
-    /// The time when --duration is over; nullopt: the session ends otherwise.
+    /// Returns the time when --duration is over; nullopt: there is no --duration.
     [[nodiscard]] std::optional<base::TimePoint> end() const { return end_; }
-    /// True if a client of the control socket has ended it.
+    /// True if a client of the control socket has ended the session.
     [[nodiscard]] bool is_stopped() const { return is_stopped_; }
-    /// Why the run cannot go on; nullopt: it can.
+    /// Returns why the run cannot continue; nullopt: it can.
     [[nodiscard]] const std::optional<std::string>& failure() const { return frames_.failure(); }
-    /// Lets an interface disappear from now on, as its command has ended or is about to.
+    /// Allows an interface to disappear from now on, because its command has ended or is about to
+    /// end.
     void expect_end() { frames_.expect_end(); }
 
-    /// Writes the files and says how it went. False: it has failed, the files are not complete, or
-    /// a check was not met. Throws, after that, what kept the recorder from its files.
+    /// Writes the files and reports the outcome. Returns false if the run has failed, the files are
+    /// not complete, or a check was not met. If the recorder could not write its files, it throws
+    /// that error after everything else is done.
     bool finish();
 
 private:

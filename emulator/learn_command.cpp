@@ -27,7 +27,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// True if a text is one of keys and values, as profiles are. No measurement reads as such.
+/// True if a text consists of keys and values, like a profile. No measurement can be read as such.
 bool is_toml(std::string_view text)
 {
     const auto document = base::parse_document(text);
@@ -65,7 +65,7 @@ base::Result<tools::Measurement> measurement_of(const std::vector<tools::Measure
     return measurement;
 }
 
-/// The ways that were measured, by the names that remarks give them.
+/// Returns the measured directions, by their names in remarks.
 std::vector<std::pair<const char*, const tools::MeasuredWay*>>
 ways_of(const tools::Measurement& measurement)
 {
@@ -76,7 +76,7 @@ ways_of(const tools::Measurement& measurement)
     return ways;
 }
 
-/// "pings-up.csv" of "pings.csv", where there are two ways.
+/// Returns "pings-up.csv" for "pings.csv", if there are two directions.
 std::string name_for(const std::string& file, const char* way, bool is_only_one)
 {
     if (is_only_one) return file;
@@ -98,7 +98,7 @@ tools::LearnSettings write_traces(const tools::Measurement& measurement, const s
     return settings;
 }
 
-/// A single table can be named by the profile.
+/// Sets the table, if there is only one, so that the profile can name it.
 tools::LearnSettings with_table(const tools::Measurement& measurement,
                                 const std::vector<tools::MeasuredFile>& files,
                                 const LearnOptions& options)

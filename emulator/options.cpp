@@ -100,7 +100,7 @@ constexpr const char* predict_footer =
 constexpr const char* predict_exit_codes = R"(  0  done
   2  bad usage, or a profile with an error)";
 
-/// The words of a parameter's description as a sentence: those of profiles.
+/// Returns the description of a parameter of profiles as a sentence.
 template <auto member>
 std::string words(std::string_view more = "", std::string_view without = "0")
 {
@@ -146,7 +146,7 @@ std::vector<Condition> listed_conditions()
 
 constexpr const char* conditions_group = "Conditions, both ways (--up.NAME, --down.NAME: one way)";
 
-/// A condition, taken as it is typed.
+/// Stores a condition as it is typed.
 cli::Take as_setting(std::string key, ConditionOptions& into)
 {
     return [key = std::move(key), &into](const std::string& text) -> base::Result<void> {
@@ -155,7 +155,7 @@ cli::Take as_setting(std::string key, ConditionOptions& into)
     };
 }
 
-/// A key of a setting and its value: "1-2.delay=80ms".
+/// Stores a setting that is given as a key and a value: "1-2.delay=80ms".
 cli::Take by_key(ConditionOptions& into)
 {
     return [&into](const std::string& text) -> base::Result<void> {
@@ -218,7 +218,7 @@ base::Result<std::size_t> parse_in_flight(const std::string& text)
     return base::fail(fmt::format("'{}' is out of range: 1MiB to 64GiB", text));
 }
 
-/// Conditions, one after the other.
+/// Appends conditions.
 cli::Take require_into(std::vector<base::Condition>& into)
 {
     return [&into](const std::string& text) -> base::Result<void> {
@@ -304,7 +304,7 @@ void add_capture(cli::Command& program, Options& options)
     cli::add_keep(program, options.keep, "what --pcap would write");
 }
 
-/// Datagrams a second, or the bit rate that the condition of this name is.
+/// Takes a number of datagrams a second, or a bit rate for the condition of this name.
 cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
 {
     return [&stream, &into](const std::string& text) -> base::Result<void> {
@@ -319,7 +319,7 @@ cli::Take stream_rate(tools::Stream& stream, ConditionOptions& into)
     };
 }
 
-/// The options of check and of predict.
+/// Adds the options of check and of predict.
 void add_dry_run(cli::Command& command, ConditionOptions& conditions_from, tools::Stream& stream)
 {
     constexpr std::uint64_t bytes_max = 65'507; // largest UDP payload over IPv4
@@ -386,8 +386,8 @@ base::Result<void> require_conditions(const ConditionOptions& options, const cli
                                   command.path(), preset_list(' ')));
 }
 
-/// Two results in one file: the second would take the place of the first, after the run. Devices
-/// such as /dev/null take many.
+/// Refuses two results in one file: the second would replace the first, after the run. Devices such
+/// as /dev/null accept several.
 base::Result<void> require_own_files(const Options& options)
 {
     using Named = std::pair<const char*, const std::optional<std::string>&>;
@@ -451,7 +451,7 @@ net::CommandLine<AnyOptions> checked(Options options, const cli::Command& progra
     return AnyOptions{std::move(options)};
 }
 
-/// The run that the options describe.
+/// Returns the run that the options describe.
 net::CommandLine<AnyOptions> chosen_run(Options options, LinkOptions links, UpstreamOptions through,
                                         const cli::Command& program)
 {
@@ -499,7 +499,7 @@ void add_frames(cli::Command& command, auto& options, std::string_view of_one_pa
     add_frame_options(command, options.frames);
 }
 
-/// The commands for frames, and what their options go to.
+/// The commands for frames, and the objects that store their options.
 class FrameCommands {
 public:
     explicit FrameCommands(cli::Command& program)

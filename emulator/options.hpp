@@ -29,7 +29,7 @@
 
 namespace hapnet::emulator {
 
-/// The processor time that may be spent to send on time.
+/// The processor time that may be used for sending on time.
 enum class Timing : std::uint8_t { eco, precise, spin };
 constexpr auto names_of(base::Tag<Timing>) { return base::names("eco", "precise", "spin"); }
 
@@ -40,10 +40,10 @@ struct TypedSetting {
     std::string_view before_key = "--"; // what was typed before the key
 };
 
-/// The sources of the conditions. Names are not looked up and files not opened yet.
+/// The sources of the conditions. At this point no names have been resolved and no files opened.
 struct ConditionOptions {
     std::optional<std::string> profile;            // a file, or the name of a preset
-    std::string_view profile_option = "--profile"; // "": it was typed without one
+    std::string_view profile_option = "--profile"; // "": it was typed without an option
     std::optional<std::string> netem;              // a sentence as tc-netem takes it
     std::vector<TypedSetting> settings;            // override the profile
     std::optional<base::Seed> seed;                // overrides the profile's seed
@@ -68,7 +68,7 @@ struct Options {
     std::optional<std::string> control;      // the path of a Unix socket
     std::optional<std::string> files;        // the folder whose files its clients may name
     cli::KeepOptions keep{};                 // the last seconds of the capture
-    std::vector<base::Condition> required{}; // besides the profile's checks
+    std::vector<base::Condition> required{}; // in addition to the profile's checks
 };
 
 /// A run with several links.
@@ -121,8 +121,8 @@ struct CheckOptions {
 struct PredictOptions {
     ConditionOptions conditions;
     tools::Stream stream{}; // its `path` selects one of several
-    /// The most packets to send until mean and deviation have settled; nullopt: as many as stream
-    /// says.
+    /// The greatest number of packets to send until mean and deviation have settled; nullopt: the
+    /// number in `stream`.
     std::optional<std::uint64_t> packets_max = 6'400'000;
     bool as_json = false;
 };
@@ -131,7 +131,7 @@ using AnyOptions = std::variant<Options, LinkOptions, UpstreamOptions, BetweenOp
                                 BridgeOptions, CheckOptions, PredictOptions, VerifyOptions,
                                 ReportOptions, LearnOptions, ProbeOptions>;
 
-/// Reads the command line; the error names the option, what is wrong with it, and what would be
+/// Reads the command line. The error names the option, what is wrong with it, and what would be
 /// right.
 [[nodiscard]] net::CommandLine<AnyOptions> parse_command_line(std::span<char*> words);
 

@@ -24,7 +24,8 @@ SleepPolicy::Margin margin_of(Timing timing)
     return {};
 }
 
-/// A user who asks for spin is warned, and gets it.
+/// Returns the limit on watching the clock. It does not apply to spin, of whose risk the user is
+/// warned.
 SleepPolicy::Watching watching_of(Timing timing)
 {
     return timing == Timing::spin ? SleepPolicy::Watching::without_limit

@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-/// A warning of the risks of `spin`.
+/// The warning about the risks of `spin`.
 inline constexpr std::string_view spin_warning =
     "--timing spin may take a whole core. When another program needs that core, the kernel stops "
     "the emulator for about 50 ms in each second: give it a core of its own, or use precise";
@@ -23,7 +23,8 @@ class Pacer {
 public:
     Pacer(Timing timing, base::TimePoint now);
 
-    /// Returns at once shortly before `deadline`: the caller watches the clock.
+    /// Waits until a descriptor becomes readable or `deadline` comes. Returns at once shortly
+    /// before `deadline`, so that the caller can watch the clock.
     void wait(std::span<const int> descriptors, std::optional<base::TimePoint> deadline);
 
 private:

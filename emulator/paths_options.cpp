@@ -37,7 +37,7 @@ base::Result<bool> parse_named_by_address(const std::string& text)
         .map([](const std::string& by) { return by == "address"; });
 }
 
-/// Refuses options that have no meaning beside `mode`, an option that stands instead of them.
+/// Refuses options that have no meaning together with `mode`, an option that replaces them.
 base::Result<void> refuse_beside(const char* mode, std::span<const char* const> options,
                                  const cli::Command& program)
 {

@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-// The options of runs with several paths, and what they do not go with.
+// The options of runs with several paths, and the options that they exclude.
 
 void add_upstream_options(cli::Command& program, UpstreamOptions& options);
 void add_link_options(cli::Command& program, LinkOptions& options);
@@ -24,12 +24,13 @@ void add_threads(cli::Command& program, std::size_t& threads);
 [[nodiscard]] base::Result<void> require_links(const LinkOptions& options,
                                                const cli::Command& program);
 
-/// The path of a dry run, by the name of one of its ways, beside the flow that is named already.
+/// Stores the path of a dry run, given by the name of one of its directions, in `path`. A flow that
+/// `path` names already stays.
 [[nodiscard]] cli::Take into_path(std::string& path);
-/// The flow of a dry run, or the rest, beside the path that is named already.
+/// Stores the flow of a dry run, or "rest", in `path`. A path that `path` names already stays.
 [[nodiscard]] cli::Take into_flow(std::string& path);
 
-/// Patterns of addresses, one after the other.
+/// Adds patterns of addresses to `into`, one after the other.
 [[nodiscard]] cli::Take allow_into(std::vector<net::AddressPattern>& into);
 
 } // namespace hapnet::emulator

@@ -34,7 +34,7 @@ struct Sums {
     std::uint64_t overflowed_down = 0;
     std::uint64_t unreachable_up = 0;
     std::uint64_t unreachable_down = 0;
-    std::size_t paths = 0; // present number of paths
+    std::size_t paths = 0; // current number of paths
 
     [[nodiscard]] DirectionReport of_up(base::Duration budget) const
     {
@@ -106,7 +106,7 @@ LinkReport link_report_of(const PathState& link, const AnyRun& run, const RunSta
             .flows = flows_of(link, run, state)};
 }
 
-/// The statistics of each flow over all paths together. The rest comes last.
+/// The statistics of each flow over all paths together. The traffic in no flow comes last.
 struct FlowSums {
     std::vector<Statistics> up;
     std::vector<Statistics> down;
@@ -133,7 +133,7 @@ FlowSums flow_sums_of(const RunState& state, std::size_t flows)
     return sums;
 }
 
-/// Reports the flows of all paths. `sums` outlive the statistics.
+/// Reports the flows of all paths. `sums` must outlive the statistics.
 void tell_of_flows(RunStatistics& statistics, const AnyRun& run, const FlowSums& sums)
 {
     const auto& flows = run.scenario.profile.flows;
@@ -154,8 +154,8 @@ void tell_of_flows(RunStatistics& statistics, const AnyRun& run, const FlowSums&
     }
 }
 
-/// Reports the sums of both directions, and judges the run. `sums` outlive the statistics.
-/// `reasons`: the objections to the run apart from those of the sums.
+/// Reports the sums of both directions, and judges the run. `sums` must outlive the statistics.
+/// `reasons`: the objections to the run other than those of the sums.
 void tell_of_sums(RunStatistics& statistics, const AnyRun& run, const Sums& sums,
                   std::vector<std::string> reasons)
 {
@@ -166,7 +166,7 @@ void tell_of_sums(RunStatistics& statistics, const AnyRun& run, const Sums& sums
     judge(statistics, run, std::move(reasons));
 }
 
-/// Each link has to be on time, not only all together.
+/// Returns the objections to each link: each has to be on time, not only all together.
 std::vector<std::string> reasons_of_links(const AnyRun& run, const RunState& state)
 {
     std::vector<std::string> reasons = state.failures;
@@ -251,7 +251,7 @@ nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& sta
     statistics.ends.clients_forgotten = state.server.departed.count;
     statistics.ends.refused = state.server.refused;
     statistics.course.at_start = configuration_of(run.scenario.profile.path);
-    // The conditions of a client that comes now.
+    // The conditions of a client that would arrive now.
     statistics.course.at_end = configuration_of(*state.server.newcomers);
     const FlowSums flows = flow_sums_of(state, run.scenario.profile.flows.size());
     tell_of_flows(statistics, run, flows);

@@ -17,13 +17,13 @@ namespace hapnet::emulator {
 using LinksRun = RunOf<ports::Links, true>;
 using UpstreamRun = RunOf<ports::Upstream, true>;
 
-/// "ready 1-2=127.0.0.1:7001,127.0.0.1:7002 ... seed=42 ..."
+/// Returns "ready 1-2=127.0.0.1:7001,127.0.0.1:7002 ... seed=42 ...".
 [[nodiscard]] std::string ready_line(const LinksRun& run);
-/// "ready listen=127.0.0.1:7001 upstream=10.0.0.5:53 seed=42 ..."
+/// Returns "ready listen=127.0.0.1:7001 upstream=10.0.0.5:53 seed=42 ...".
 [[nodiscard]] std::string ready_line(const UpstreamRun& run);
 
-/// The statistics that --stats writes: one JSON object, with the sums of all paths and an entry for
-/// each path that is there.
+/// Returns the statistics that --stats writes: one JSON object, with the sums of all paths and an
+/// entry for each existing path.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const LinksRun& run, const RunState& state);
 [[nodiscard]] nlohmann::ordered_json statistics_of(const UpstreamRun& run, const RunState& state);
 
@@ -33,14 +33,14 @@ using UpstreamRun = RunOf<ports::Upstream, true>;
                                                    const RunState& state,
                                                    std::span<const LinkEnds> ends = {});
 
-/// The length of a run with several links, and a line for each of their ways.
+/// Returns the length of a run with several links, and a line for each of their directions.
 [[nodiscard]] std::string words_of_links(const AnyRun& run, const RunState& state);
 
-/// A few lines for a person.
+/// Returns a few lines for a person.
 [[nodiscard]] std::string summary(const LinksRun& run, const RunState& state);
 [[nodiscard]] std::string summary(const UpstreamRun& run, const RunState& state);
 
-/// One short line for a terminal.
+/// Returns one short line for a terminal.
 [[nodiscard]] std::string status_line(const LinksRun& run, const RunState& state);
 [[nodiscard]] std::string status_line(const UpstreamRun& run, const RunState& state);
 

@@ -43,7 +43,7 @@ std::string in_words(const std::optional<base::Moments>& moments)
                        in_ms(moments->sd.value_or(base::Duration{})));
 }
 
-/// "mean to 0.2 %, sd to 0.9 % (95 %)"
+/// Returns "mean to 0.2 %, sd to 0.9 % (95 %)".
 std::string settling_in_words(const tools::DirectionForecast& forecast)
 {
     const auto why = forecast.why_unsettled();

@@ -73,7 +73,7 @@ std::string words_of(const tools::ProbeSummary& of, const net::Endpoint& target)
     return text;
 }
 
-/// The end that asks.
+/// The end that sends questions.
 class Prober {
 public:
     explicit Prober(const ProbeOptions& options)
@@ -140,7 +140,7 @@ private:
         encode(statistics_.next_question(last_), bytes_);
         const auto outcome = socket_.send(target_, bytes_);
         if (outcome == net::SendOutcome::sent || has_told_) return;
-        has_told_ = true; // told only once; the question counts as lost
+        has_told_ = true; // reported only once; the question counts as lost
         net::say("hapnet-emulator", outcome == net::SendOutcome::too_big
                                         ? "a question is too big for the way: lower --size"
                                         : "the system did not take a question; it counts as lost");
@@ -187,8 +187,8 @@ int answer_until_stopped(const net::HostPort& where, const net::StopSignal& stop
             const auto question = tools::decode_probe(datagram.bytes);
             auto answer = question ? answerer.answer(*question, datagram.at) : std::nullopt;
             if (!answer) continue;
-            // An answer is as long as the question and never longer: an attacker gains nothing by
-            // naming a victim as the sender.
+            // An answer is never longer than the question, so an attacker gains nothing by giving a
+            // victim's address as the sender.
             const auto room = std::span{bytes}.first(std::min(datagram.bytes.size(), bytes.size()));
             answer->answered = net::monotonic_now();
             encode(*answer, room);

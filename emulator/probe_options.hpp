@@ -29,7 +29,7 @@ struct ProbeOptions {
     bool is_quiet = false;
 };
 
-/// Adds the command to the program; after parse() the options hold what was typed.
+/// Adds the command to the program. After parse() the options hold what was typed.
 cli::Command& add_probe(cli::Command& program, ProbeOptions& options);
 
 /// Refuses options that contradict each other, and a command without HOST:PORT or --answer.

@@ -17,7 +17,8 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// The name of a preset may be typed in capital letters.
+/// Returns the name of a preset, which may be typed in capital letters. Returns any other name
+/// unchanged.
 std::string meant_name(const std::string& typed)
 {
     std::string name = typed;

@@ -6,8 +6,8 @@
 
 namespace hapnet::emulator {
 
-/// Runs hapnet-emulator. `words` are those of the command line, the program's name first. Returns
-/// the exit code; docs/use and --help list them.
+/// Runs hapnet-emulator. `words` are the words of the command line, the program's name first.
+/// Returns the exit code; docs/use and --help list the codes.
 int main_program(std::span<char*> words);
 
 } // namespace hapnet::emulator

@@ -26,9 +26,9 @@ namespace {
 
 constexpr base::Duration write_every = std::chrono::milliseconds{20};
 constexpr std::size_t buffer_bytes = 1 << 18;
-/// Entries written of one queue before the other.
+/// The greatest number of entries of one queue that are written before those of the other.
 constexpr std::size_t batch_max = 4096;
-/// Rows that are kept in memory, of all ways together.
+/// The size of the rows that are kept in memory, of all directions together.
 constexpr std::size_t waiting_bytes_max = 4 << 20;
 /// The limit of the packets held in memory: 20 s of two peers take 24 MB.
 constexpr std::size_t held_bytes_max = std::size_t{64} << 20;
@@ -38,8 +38,8 @@ constexpr std::size_t held_bytes_max = std::size_t{64} << 20;
     throw std::system_error{errno, std::generic_category(), what};
 }
 
-/// A file without a name, in the folder of `path` so that there is room for it, or where temporary
-/// files are when that folder is no place for files (/dev).
+/// Opens a file without a name, in the folder of `path` so that there is room for it, or in that of
+/// temporary files when that folder cannot have files (/dev).
 disk::Descriptor open_nameless(const std::string& path)
 {
     const auto temporary = (std::filesystem::temp_directory_path() / "fates").string();
@@ -134,7 +134,7 @@ void Recorder::Fates::add(const FateEntry& entry)
     if (way.rows.size() >= buffer_bytes) set_aside(way);
 }
 
-/// Writes the rows of the first way.
+/// Writes the rows of the first direction.
 void Recorder::Fates::append_first()
 {
     file.append(ways[0].rows);
@@ -169,7 +169,7 @@ void Recorder::Fates::copy(const Piece& piece, std::string& buffer)
     }
 }
 
-/// Appends the rows of all ways but the first to the file, one way after the other.
+/// Appends the rows of all directions but the first to the file, one direction after the other.
 void Recorder::Fates::join()
 {
     std::string buffer;
@@ -180,7 +180,7 @@ void Recorder::Fates::join()
     file.commit({});
 }
 
-/// On a full disk the file has the rows of the first direction.
+/// Completes the file. On a full disk it has the rows of the first direction.
 void Recorder::Fates::finish()
 {
     try {
@@ -243,14 +243,15 @@ void Recorder::Capture::finish()
     loss.note();
 }
 
-/// Writes what was ordered of the last packets.
+/// Writes the captures of the held packets that were ordered.
 void Recorder::Capture::save_ordered()
 {
     if (const auto order = keeper.take())
         keeper.save(order->path, section + held->since(order->from));
 }
 
-/// A packet whose chunks do not all come was lost: the next one begins instead.
+/// Takes a part of a packet. If not all chunks of a packet arrive, it is lost, and the next one
+/// begins instead.
 void Recorder::Capture::take(const Part& part, Incomplete& incomplete)
 {
     auto& [head, payload] = incomplete;
@@ -396,7 +397,7 @@ void Recorder::note_failures()
     if (failed) failed_.store(true, std::memory_order_release);
 }
 
-/// Returns the fill of the queue in which most waits.
+/// Returns the length of the longest queue.
 std::size_t Recorder::waiting() const
 {
     std::size_t most = 0;
@@ -407,7 +408,8 @@ std::size_t Recorder::waiting() const
     return most;
 }
 
-/// The thread: writes what waits, and sleeps. Polling, so that the relay need not wake it.
+/// The thread function: writes what waits, and sleeps. It polls, so that the relay need not wake
+/// it.
 void Recorder::run()
 {
     net::leave_real_time(); // may be inherited from the relay; not for files

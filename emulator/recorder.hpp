@@ -31,11 +31,12 @@
 
 namespace hapnet::emulator {
 
-/// An endpoint as a capture writes it.
+/// Returns an endpoint in the form that a capture needs.
 [[nodiscard]] UdpAddress udp_address_of(const net::Endpoint& endpoint);
 
-/// Writes the fates and the capture of a run, on a thread of normal priority. The relay's entries
-/// go through bounded queues, which never make it wait. Entries that do not fit are counted.
+/// Writes the fates and the capture of a run, on a thread of normal priority. The entries of the
+/// relay pass through bounded queues, which never make it wait. Entries that do not fit are
+/// counted.
 class Recorder {
 public:
     struct Files {
@@ -45,48 +46,53 @@ public:
         std::string keep_in{};                // folder for captures of held packets
         std::vector<CaptureNames> pairs{CaptureNames{}}; // pairs of interfaces in the capture
         FateColumns columns{};                           // columns of the file of fates
-        /// The regimes of a path, up and down; null: there are none.
+        /// Returns the regimes of a path, up and down. null: there are no regimes.
         std::function<NamesOfRegimes(const std::string& path)> regimes{};
         std::size_t lanes = 1; // threads that hand over entries
     };
 
     class Lane;
 
-    /// Throws std::system_error when a file cannot be written. No thread when there is none. The
-    /// signals that are to reach the calling thread alone are blocked already.
+    /// Opens the files and starts the thread. If there are no files, there is no thread. The
+    /// signals that only the calling thread may receive must be blocked already. Throws
+    /// std::system_error when a file cannot be written.
     explicit Recorder(const Files& files);
     /// Discards files that were not finished.
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// The lane in which one of the threads hands over, by its number from 0.
+    /// Returns the lane of one of the threads that hand over entries, by its number from 0.
     [[nodiscard]] Lane& lane(std::size_t number = 0) { return *lanes_.at(number); }
 
-    /// A path whose fates will come, and the number by which they do: from 0, in the order of the
-    /// calls. The file has their rows in that order, whichever lanes they come through. May
-    /// allocate and lock; from any thread.
+    /// Registers a path whose fates will be handed over, and returns its number. Numbers count from
+    /// 0 in the order of the calls. The file has the rows of the paths in that order, whichever
+    /// lanes they come through. May allocate and lock. Call it from any thread.
     [[nodiscard]] std::uint32_t add_path(const std::string& name);
 
-    /// The number of fates, and that of packets, that are missing in their files: they found no
-    /// room in a queue, or the file could not be written. If any, the file is not complete.
+    /// Return the number of fates, and of packets, that are missing in their files: they found no
+    /// room in a queue, or the file could not be written. If the number is above 0, the file is not
+    /// complete.
     [[nodiscard]] std::uint64_t fates_lost() const;
     [[nodiscard]] std::uint64_t capture_lost() const;
 
-    /// The time span for which it holds the last packets in memory; nullopt: it holds none.
+    /// Returns the time span for which the latest packets are held in memory; nullopt: none are
+    /// held.
     [[nodiscard]] std::optional<base::Duration> held() const;
-    /// Orders a capture of the packets since that time; gives its path. Never waits: the file
-    /// appears, whole, soon after. The error says why there will be none. From one thread.
+    /// Orders a capture of the packets since `from`, and returns the path of its file. Never waits:
+    /// the complete file appears soon after. The error says why there will be no file. Call it from
+    /// one thread only.
     [[nodiscard]] base::Result<std::string> keep(const std::string& name, base::TimePoint from);
-    /// Returns once why an ordered capture could not be written.
+    /// Returns, once, why an ordered capture could not be written.
     [[nodiscard]] std::optional<std::string> keep_trouble();
 
-    /// True if a file could not be written (a full disk): from then on everything of it is lost.
+    /// True if a file could not be written (a full disk). From then on all further entries for it
+    /// are lost.
     [[nodiscard]] bool has_failed() const { return failed_.load(std::memory_order_acquire); }
 
-    /// Writes all that was handed over and puts the files into their places. Throws the error of
-    /// the first file that failed. Its part until then is in its place, and the other file is
-    /// complete. Hand over nothing after this call.
+    /// Writes everything that was handed over and puts the files into their places. Throws the
+    /// error of the first file that failed. The part of that file up to the failure is then in its
+    /// place, and the other file is complete. Hand over nothing after this call.
     void finish();
 
 private:
@@ -98,7 +104,7 @@ private:
         std::uint32_t path = 0;
         Direction direction = Direction::up;
     };
-    /// The beginning of a packet; its bytes follow in chunks.
+    /// The beginning of a packet. Its bytes follow in chunks.
     // No defaults: Clang 14 needs them before the class that holds this one is complete.
     struct CaptureHeader {     // NOLINT(cppcoreguidelines-pro-type-member-init)
         CapturedPacket packet; // of its payload only the size is valid
@@ -112,19 +118,19 @@ private:
     };
     using Part = std::variant<CaptureHeader, CaptureChunk>;
 
-    // The one of their package's two queues that ThreadSanitizer can follow. It makes no system
-    // call unless a thread waits for it, and no thread does here.
+    // This is the one of the package's two queues that ThreadSanitizer can analyse. It makes no
+    // system call unless a thread waits for it, and no thread does here.
     template <typename T>
     using Queue = moodycamel::BlockingReaderWriterCircularBuffer<T>;
 
-    /// The amount that is missing in a file which could not be written to its end.
+    /// The number of entries that are missing in a file which could not be written to its end.
     struct Loss {
         std::uint64_t taken = 0;            // entries taken out of the queues
         std::uint64_t kept = 0;             // entries written to the file
         std::exception_ptr failure;         // null: no write has failed
         std::atomic<std::uint64_t> lost{0}; // missing entries; other threads read it
 
-        /// The exception that is handled, the first of the file.
+        /// Stores the current exception, which is the first one of the file.
         void fail()
         {
             failure = std::current_exception();
@@ -136,12 +142,13 @@ private:
         }
     };
 
-    /// The rows of each way, in the order of the ways, whenever they come: those of the first way
-    /// go to the file, those of the others to a file without a name, in pieces, until the end.
+    /// The rows of each direction, in the order of the paths, whenever they come. The rows of the
+    /// first direction go to the file. The rows of the others go in pieces to a file without a
+    /// name, until the end.
     struct Fates {
         Fates(const std::string& path, FateColumns columns);
 
-        /// Contents of the rows of a path besides their fates.
+        /// Contents of the rows of a path other than their fates.
         struct Cells {
             std::string begin;
             NamesOfRegimes regimes;
@@ -167,10 +174,10 @@ private:
 
         disk::ResultFile file;
         FateColumns columns;
-        disk::Descriptor aside; // the unnamed file, for all ways but the first
+        disk::Descriptor aside; // the unnamed file, for all directions but the first
         std::uint64_t aside_bytes = 0;
-        std::size_t waiting_bytes = 0;   // rows in memory, of all ways but the first
-        std::uint64_t waiting_first = 0; // rows of the first way that are not written yet
+        std::size_t waiting_bytes = 0;   // rows in memory, of all directions but the first
+        std::uint64_t waiting_first = 0; // rows of the first direction that are not written yet
         std::vector<Way> ways{2};        // up and down of each path
         std::vector<Cells> cells;        // one for each path
         std::mutex coming_lock;
@@ -219,8 +226,8 @@ private:
     std::thread thread_; // last member: the thread uses the others
 };
 
-/// The way of one thread to the files: for that thread alone. Handing over neither allocates nor
-/// locks nor calls the system; nothing happens where no file is asked for.
+/// The connection of one thread to the files, for that thread alone. Handing over neither allocates
+/// nor locks nor calls the system. It does nothing where no file is written.
 class Recorder::Lane {
 public:
     /// Makes a lane with queues for the files that exist. Recorder::lane() says who may use it.
@@ -228,11 +235,11 @@ public:
 
     [[nodiscard]] bool captures() const { return packets_.has_value(); }
 
-    /// The datagram of this number was given this fate on that path.
+    /// Hands over the fate of datagram `number` on that path.
     void on_fate(std::uint32_t path, Direction direction, std::uint64_t number, const Fate& fate);
-    /// A datagram arrived, and this becomes of it, queues included.
+    /// Hands over a datagram that arrived, and its fate, including the effect of the queues.
     void on_arrival(const CapturedPacket& packet, const Fate& fate);
-    /// A datagram left, `late` after it was due.
+    /// Hands over a datagram that left `late` after it was due.
     void on_departure(const CapturedPacket& packet, base::Duration late, bool is_copy);
 
 private:

@@ -27,8 +27,8 @@ namespace {
 
 const ports::Relay& relay_of(const Run& run) { return *run.port.relays().front(); }
 
-/// The changes that a path saw, each with the settings that changed. The generation is that of the
-/// run where it has one path only.
+/// Returns the changes of a path, each with the settings that changed. The generation is that of
+/// the run; it is set only if the run has one path.
 std::vector<ChangeReport> changes_of(const std::vector<ConditionChange>& changes,
                                      std::string_view name)
 {
@@ -47,7 +47,7 @@ std::vector<ChangeReport> changes_of(const std::vector<ConditionChange>& changes
     return list;
 }
 
-/// Returns sentences on missing parts of the files that were asked for.
+/// Returns sentences on missing parts of the requested files.
 std::vector<std::string> lacks_of(const Recorder& recorder)
 {
     std::vector<std::string> lacks;
@@ -114,7 +114,7 @@ DirectionReport report_of(const WayState& way, const AnyRun& run, const RunState
 
 namespace {
 
-/// Reports a direction of a path or of a flow; of a path with flows, the rest alone.
+/// Reports a direction of a path or of a flow; of a path with flows, only the traffic in no flow.
 DirectionReport report_of_own(const PathState& path, Direction direction, const AnyRun& run,
                               const RunState& state)
 {
@@ -151,7 +151,7 @@ std::optional<FlowReports> flows_of(const PathState& path, const AnyRun& run, co
                                       .up = report_of_own(flow, Direction::up, run, state),
                                       .down = report_of_own(flow, Direction::down, run, state)});
     }
-    // The flow to which strangers, and datagrams that the socket lost, would belong is not known.
+    // It is not known to which flow strangers, and datagrams that the socket lost, would belong.
     const auto rest_of = [&](Direction direction) {
         auto report = report_of_own(path, direction, run, state);
         report.strangers = report.overflowed = report.unreachable = 0;

@@ -33,8 +33,8 @@ struct AnyRun {
     const Recorder& recorder;
     net::RealTime real_time{};
     base::Duration elapsed{}; // time since the sockets were bound
-    /// Failures of things that a run cannot do without, such as a lost interface: a sentence each.
-    /// A run with a failure is not valid.
+    /// Failures of things that the run needs, such as a lost interface: a sentence each. A run with
+    /// a failure is not valid.
     std::vector<std::string> failures{};
 };
 
@@ -49,46 +49,49 @@ struct RunOf : AnyRun {
 /// A run of one pair.
 using Run = RunOf<ports::Links, false>;
 
-/// The line that says that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42 ...".
+/// Returns the line that reports that the emulator listens: "ready a=127.0.0.1:7001 b=... seed=42
+/// ...".
 [[nodiscard]] std::string ready_line(const Run& run);
 
 // The parts of statistics that runs of all kinds have.
 
-/// The beginning of all statistics: the program, how it ran, the profile and the files of the run.
+/// Returns the beginning of all statistics: the program, its mode of operation, the profile and the
+/// files of the run.
 [[nodiscard]] RunStatistics statistics_of_any(const AnyRun& run, const RunState& state);
 
 /// Returns the settings of each direction that differ from the default, as a profile writes them.
 [[nodiscard]] Configuration configuration_of(const Path& path);
 
-/// Returns the conditions of the path at the start and in the end, and its changes. While the run
-/// goes on, it has only the last changes.
+/// Returns the conditions of the path at the start and at the end, and its changes. During the run,
+/// it has only the latest changes.
 [[nodiscard]] CourseReport course_of(const AnyRun& run, const PathState& path);
 
-/// A direction of one path, which it refers to. A run that keeps each fate keeps whole
-/// distributions, too, once it is over.
+/// Returns the report on a direction of one path. It refers to `way`. If the run records each fate,
+/// the report has whole distributions once the run is over.
 [[nodiscard]] DirectionReport report_of(const WayState& way, const AnyRun& run,
                                         const RunState& state);
 
-/// A direction of a path, which it refers to; with flows, the sum of them and the rest.
+/// Returns the report on a direction of a path. It refers to `path`. With flows, it is the sum of
+/// the flows and the other traffic.
 [[nodiscard]] DirectionReport report_of(const PathState& path, Direction direction,
                                         const AnyRun& run, const RunState& state);
 
-/// The flows of a path, which they refer to; nullopt: the run has none.
+/// Returns the reports on the flows of a path. They refer to `path`. nullopt: the run has no flows.
 [[nodiscard]] std::optional<FlowReports> flows_of(const PathState& path, const AnyRun& run,
                                                   const RunState& state);
 
-/// Adds what is against the validity of the flows: "flow.voice.up: ...".
+/// Adds the reasons why flows are not valid: "flow.voice.up: ...".
 void add_reasons(std::vector<std::string>& reasons, const std::optional<FlowReports>& flows);
 
-/// Adds what is against the validity of a direction: "up: ...".
+/// Adds the reasons why a direction is not valid: "up: ...".
 void add_reasons(std::vector<std::string>& reasons, std::string_view way,
                  const DirectionReport& report);
 
-/// Sets the verdict of a run. It is valid when nothing is against it (`reasons`) and its files are
+/// Sets the verdict of a run. It is valid when there are no `reasons` against it and its files are
 /// complete.
 void judge(RunStatistics& statistics, const AnyRun& run, std::vector<std::string> reasons);
 
-/// Writes the report on the path of a run that has only one.
+/// Adds the report on the path of a run that has only one.
 void tell_of_path(RunStatistics& statistics, const AnyRun& run, const RunState& state);
 
 /// Returns the statistics as JSON, with the outcomes of the checks, if there are any.
@@ -96,19 +99,19 @@ void tell_of_path(RunStatistics& statistics, const AnyRun& run, const RunState& 
 
 // The parts of a summary that runs of all kinds have.
 
-/// A line for each direction of a run that has one path.
+/// Returns a line for each direction of a run that has one path.
 [[nodiscard]] std::string words_of_path(const AnyRun& run, const RunState& state);
-/// Names missing parts of the files that were asked for, and things that the run has lost for good
-/// or for a time, a line each.
+/// Returns a line for each kind of missing entries in the files that were asked for, and for each
+/// thing that the run has lost for good or for a time.
 [[nodiscard]] std::string closing_words(const AnyRun& run, const RunState& state);
 
-/// The statistics that --stats writes: one JSON object.
+/// Returns the statistics that --stats writes: one JSON object.
 [[nodiscard]] nlohmann::ordered_json statistics_of(const Run& run, const RunState& state);
 
-/// A few lines for a person.
+/// Returns a few lines for a person.
 [[nodiscard]] std::string summary(const Run& run, const RunState& state);
 
-/// One short line for a terminal.
+/// Returns one short line for a terminal.
 [[nodiscard]] std::string status_line(const Run& run, const RunState& state);
 
 } // namespace hapnet::emulator

@@ -25,7 +25,7 @@ std::string file_name_of(const std::string& path)
     return std::filesystem::path{path}.filename().string();
 }
 
-/// Reads the fates, and tests them as far as they can be.
+/// Reads the fates, and tests them as far as possible.
 base::Result<void> add_fates(tools::RunRecord& run, const ReportOptions& options)
 {
     const auto named = fates_path_of(run.statistics, options.run);

@@ -12,21 +12,22 @@
 
 namespace hapnet::emulator {
 
-/// The end of every run: its files, and its words on stderr.
+/// Writes the files of a run at its end, and its summary on stderr.
 class Results {
 public:
-    /// Throws std::system_error when the statistics cannot be written there.
+    /// Throws std::system_error when the file of the statistics cannot be written.
     explicit Results(const Options& options);
 
-    /// The reports of a run. They are asked for when its files are complete.
+    /// Functions that make the reports of a run. They are called when its files are complete.
     struct Reports {
         std::function<nlohmann::ordered_json()> statistics;
         std::function<std::string()> summary;
     };
 
-    /// Writes the files, with the recorder's, and says how it went. False: they are not complete,
-    /// a check was not met, or the run has lost what it cannot do without. Throws, after that, what
-    /// kept them from being written. The thread has no real-time scheduling any more.
+    /// Writes the files, including the recorder's, and prints the summary. Returns false if the
+    /// files are not complete, a check was not met, or the run has lost something that it needs. If
+    /// a file could not be written, it throws that error after everything else is done. The calling
+    /// thread must not have real-time scheduling any more.
     [[nodiscard]] bool finish(AnyRun& run, Recorder& recorder, const Reports& reports);
 
 private:

@@ -13,40 +13,41 @@
 
 namespace hapnet::emulator {
 
-// The files of a run, for the commands that read them again. Errors name the file.
+// Functions for the commands that read the files of a run. Errors name the file.
 
-/// Statistics as --stats writes them: an object.
+/// Parses statistics as --stats writes them. The result is an object.
 [[nodiscard]] base::Result<nlohmann::ordered_json> statistics_in(const std::string& text,
                                                                  const std::string& path);
 
-/// The profile of the run, from its statistics.
+/// Returns the profile of the run from its statistics.
 [[nodiscard]] base::Result<Profile> profile_of_run(const nlohmann::ordered_json& statistics,
                                                    const std::string& path);
 
-/// The file of fates that the statistics name: as they name it, or beside them. The error says that
-/// they name none.
+/// Returns the path of the file of fates that the statistics name: the named path, or a file of
+/// that name in the folder of the statistics. The error: they name none.
 [[nodiscard]] base::Result<std::string> fates_path_of(const nlohmann::ordered_json& statistics,
                                                       const std::string& path);
 
-// The next two functions return the data of one path. `link` names it in a run with several paths;
-// nullopt: the run has only one.
+// The next two functions return the data of one path. `link` names the path in a run with several
+// paths. nullopt: the run has only one.
 
-/// The fates of the path in a table. The error names the paths that are in it.
+/// Returns the fates of the path from a table. The error lists the paths in the table.
 [[nodiscard]] base::Result<Fates> fates_of_path(const std::string& fates_path,
                                                 const std::optional<std::string>& link);
 
-/// The statistics with those of the path in the place of those of the run; null when they have
-/// none of it: of a client that was forgotten.
+/// Returns the statistics in which the values of the path or flow replace those of the run. null:
+/// the statistics have no entry for it, for example because the client was forgotten.
 [[nodiscard]] nlohmann::ordered_json of_path(const nlohmann::ordered_json& statistics,
                                              const std::optional<std::string>& link);
 
-/// Refuses fates that are not those of all datagrams in the statistics. Rows missing at the end of
-/// the table leave no gap in it.
+/// Refuses fates whose number differs from the number of datagrams in the statistics, in either
+/// direction. Rows that are missing at the end of a table leave no gap, so nothing else shows that
+/// they are missing.
 [[nodiscard]] base::Result<void> ensure_whole(const Fates& fates,
                                               const nlohmann::ordered_json& statistics);
 
-/// The error says why the fates of this run cannot be tested against its profile: they were
-/// replayed, or the conditions changed.
+/// Returns an error if the fates of this run cannot be tested against its profile, because they
+/// were replayed or the conditions changed.
 [[nodiscard]] base::Result<void> ensure_testable(const nlohmann::ordered_json& statistics,
                                                  const Profile& profile, const std::string& path);
 

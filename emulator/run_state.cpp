@@ -12,10 +12,10 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// The bytes that a step copies before it leaves the rest to the next one.
+/// The number of bytes that a step copies before it leaves the rest to the next step.
 constexpr std::size_t step_bytes = 64 << 10;
 
-/// Gives how many bytes that took, about.
+/// Copies the state of a direction. Returns the approximate number of copied bytes.
 std::size_t look_at(const Link& link, base::Duration elapsed, WayState& state)
 {
     state.regimes = link.regime_course(elapsed);
@@ -28,8 +28,8 @@ std::size_t look_at(const Link& link, base::Duration elapsed, WayState& state)
            (stream.over_time ? stream.over_time->stretches().size() * sizeof(Stretch) : 0);
 }
 
-/// Copies a path's state with the last `changes_max` changes, and its flows, for which there is
-/// room.
+/// Copies the state of a path with the last `changes_max` changes, and of its flows. Room for them
+/// must exist.
 std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState& state)
 {
     std::size_t bytes = 0;
@@ -50,10 +50,10 @@ std::size_t look_at(const EmulatedPath& path, std::size_t changes_max, PathState
            last.size() * sizeof(ConditionChange);
 }
 
-/// Returns the number of a path's changes to report: all, once the run is over.
+/// Returns the number of a path's changes to report: all of them once the run is over.
 std::size_t told_changes(const RunState& state, std::size_t paths)
 {
-    // Clients may ask for them many times a second.
+    // While the run lasts, clients may request them many times a second.
     constexpr std::size_t while_it_runs = 20;
     if (state.is_over) return ChangeLog::entries_max;
     return std::max(while_it_runs / std::max(paths, std::size_t{1}), std::size_t{1});
@@ -66,7 +66,7 @@ void make_room(const AnyRun& run, std::size_t paths, RunState& state)
     for (PathState& path : state.paths) path.flows.resize(run.scenario.profile.flows.size());
 }
 
-/// Names the flows, and adds up what belongs together. Afterwards no path is looked at.
+/// Sets the names of the flows, and adds up their statistics. It does not read the paths any more.
 void sum_up_flows(const AnyRun& run, RunState& state)
 {
     const auto& flows = run.scenario.profile.flows;
@@ -117,7 +117,8 @@ std::size_t look_at(const ports::Upstream::Client& client, std::size_t changes_m
     return bytes;
 }
 
-/// `overflowed`: where it is not known which way those would have taken.
+/// `overflowed`: the number of frames that the socket lost, if their direction is not known; else
+/// nullopt.
 void look_at(const ports::Frames::End& end, std::optional<std::uint64_t> overflowed,
              InterfaceReport& report)
 {
@@ -129,7 +130,8 @@ void look_at(const ports::Frames::End& end, std::optional<std::uint64_t> overflo
     report.overflowed = overflowed;
 }
 
-/// Names the interfaces now, because no memory is taken while a thread waits.
+/// Sets the names of the interfaces before the look, because no memory may be allocated while a
+/// thread waits.
 void make_room(const ports::Frames& port, InterfaceReports& reports)
 {
     if (reports.size() == port.ends().size()) return;
@@ -152,7 +154,7 @@ void look_at(const ports::Frames& port, RunState& state)
     }
 }
 
-/// Takes those out that are none of `present`; the others stay in their order.
+/// Removes the clients that are not in `present`. The others stay in their order.
 void keep_present(const std::vector<std::uint64_t>& present, RunState& state)
 {
     const auto end = state.paths.begin() + static_cast<std::ptrdiff_t>(state.count);
@@ -218,13 +220,13 @@ void look_at(const AnyRun& run, const ports::Upstream& port, const control::DoWo
         wanted = 0;
         return true;
     };
-    // Makes room here: the relaying thread must not wait for memory.
+    // Makes room here, because the relaying thread must not wait for memory.
     while (wanted > 0) {
         make_room(run, wanted, state);
         present.reserve(state.paths.size());
         work(step);
     }
-    // A client that has gone since is among those that have departed.
+    // A client that has gone in the meantime is included in the sums of departed clients.
     keep_present(present, state);
     sum_up_flows(run, state);
 }

@@ -25,7 +25,7 @@
 
 namespace hapnet::emulator {
 
-/// One direction of a path as it was at a moment.
+/// One direction of a path at one moment.
 struct WayState {
     Statistics statistics{};
     StreamTotals stream{};
@@ -35,7 +35,7 @@ struct WayState {
     std::vector<RegimeCourse> regimes{}; // course of each regime until then
 };
 
-/// A path as it was at a moment, and how its conditions have changed until then.
+/// A path at one moment, and the changes of its conditions up to then.
 struct PathState {
     std::string name;
     std::uint64_t client = 0; // number of its client; 0: not a client's path
@@ -48,13 +48,13 @@ struct PathState {
     WayState up;                          // if there are flows: traffic that is in no flow
     WayState down;
     std::vector<PathState> flows; // states of the flows, in the profile's order
-    Statistics all_up;            // if there are flows: sums of them and the rest
+    Statistics all_up;            // if there are flows: sums of them and of the other traffic
     Statistics all_down;
     std::uint64_t unknown_fragments = 0; // see Classifier
 };
 
-/// A run as it was at a moment: all that its reports are made from, apart from what never changes.
-/// Where there are many paths, each was looked at on its own, some hundred microseconds apart.
+/// A run at one moment: everything that its reports are made from, apart from what never changes.
+/// If there are many paths, each was read on its own, some hundred microseconds apart.
 struct RunState {
     base::Duration elapsed{}; // time since the sockets were bound
     std::uint64_t generation = 1;
@@ -77,8 +77,8 @@ struct RunState {
     InterfaceReports interfaces{}; // only for a run between interfaces
 };
 
-// Looks at a run by steps of `work`, of which none copies more than some 100 KiB. `state` is one
-// of the same run, or an empty one.
+// These functions read the state of a run in steps of `work`, none of which copies more than some
+// 100 KiB. `state` is an earlier state of the same run, or an empty one.
 
 void look_at(const AnyRun& run, const ports::Links& port, const control::DoWork& work,
              RunState& state);

@@ -39,7 +39,7 @@ base::Result<Profile> profile_named(const ConditionOptions& options,
     return std::move(netem->profile);
 }
 
-/// The profile with the settings of the command line, which win over all that it says.
+/// Applies the settings of the command line to the profile. They override its settings.
 base::Result<void> take_typed(Profile& profile, const std::vector<TypedSetting>& typed,
                               const PathNames& names)
 {
@@ -70,8 +70,8 @@ base::Result<void> take_typed(Profile& profile, const std::vector<TypedSetting>&
     return {};
 }
 
-/// Warns of effects of the conditions at 1000 datagrams a second that a user may not have meant,
-/// with the numbers that a prediction finds.
+/// Warns of effects of the conditions at 1000 datagrams a second that a user may not have intended,
+/// with the numbers of a prediction.
 void warn_of_conditions(Scenario& scenario, const std::string& path)
 {
     const tools::Stream stream{.packets = 20'000};
@@ -91,7 +91,8 @@ void warn_of_conditions(Scenario& scenario, const std::string& path)
     warn("down", warnings(down, stream, prediction.down));
 }
 
-/// Files that laws name, by paths that hold wherever the profile is read again.
+/// Makes the name of a file in a law absolute, so that it stays valid wherever the profile is read
+/// again.
 void make_absolute(std::string& file, const std::string& beside)
 {
     file = std::filesystem::absolute(path_beside(file, beside)).lexically_normal().string();
@@ -135,7 +136,7 @@ void make_absolute(Regimes& regimes, const std::string& beside)
     regimes.all = std::move(all);
 }
 
-/// Makes the paths of files absolute in a change, or in a path.
+/// Makes the names of files absolute in a change, or in a path.
 void make_absolute(auto& patches, const std::string& beside) requires requires
 {
     patches.up.delay.has_value();

@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator {
 
-/// The conditions of a run: the options, with the files that they name.
+/// The conditions of a run: the options, with the contents of the files that they name.
 struct Scenario {
     Profile profile; // with the seed and the settings of the command line
     base::Seed seed{1};
@@ -24,16 +24,16 @@ struct Scenario {
     std::vector<base::Condition> checks;        // from the profile and the command line
 };
 
-/// The profile that --profile, --netem and single settings make. Paths in it are absolute. A
-/// warning for each thing that netem would have done differently. It may speak of the paths that
-/// `names` has.
+/// Returns the profile that results from --profile, --netem and single settings. File names in it
+/// are absolute. Adds a warning for each difference from netem's behaviour. The profile may set
+/// conditions for the paths that `names` has.
 [[nodiscard]] base::Result<Profile> profile_for(const ConditionOptions& options,
                                                 std::vector<std::string>& warnings,
                                                 const PathNames& names = {.any = true});
 
-/// The profile of one path, with the conditions of all paths; the path without a name when `path`
-/// is empty. Warns on stderr when the profile has more paths than that, or nothing of its own for
-/// it.
+/// Returns the profile of one path, with the conditions of all paths; that of the path without a
+/// name when `path` is empty. Warns on stderr when the profile has more paths, or no settings for
+/// this path.
 [[nodiscard]] base::Result<Profile> profile_for_path(const ConditionOptions& options,
                                                      const std::string& path,
                                                      std::vector<std::string>& warnings);
@@ -41,10 +41,11 @@ struct Scenario {
 /// Translates a sentence of tc-netem into a profile with the same conditions in both directions.
 [[nodiscard]] base::Result<TranslatedProfile> netem_profile(const std::string& sentence);
 
-/// The seed that draws: that of the command line, of the profile, or 1.
+/// Returns the seed of the random draws: that of the command line, else that of the profile, else
+/// 1.
 [[nodiscard]] base::Seed seed_of(const ConditionOptions& options, const Profile& profile);
 
-/// Opens the files that the options name. The error is one of bad input: it names the option or
+/// Opens the files that the options name. The error is one of bad input: it names the option, or
 /// the file and line. `names`: the paths of the run.
 [[nodiscard]] base::Result<Scenario> scenario_of(const Options& options,
                                                  const PathNames& names = {});

@@ -16,7 +16,7 @@
 namespace hapnet::emulator {
 
 /// The output of a run on stderr while it lasts: messages, and on a terminal a status line below
-/// them. A thread of its own writes them: a terminal that stands still does not hold up the relay.
+/// them. A thread of its own writes them, so that a blocked terminal does not delay the relay.
 class Status {
 public:
     explicit Status(base::TimePoint now)
@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_; }
 
-    /// `line` gives the status line, when it is time for one.
+    /// Shows the status line that `line` returns, if the time for an update has come.
     void show(const auto& line, base::TimePoint now)
     {
         if (!base::is_due(next_, now)) return;
@@ -36,10 +36,10 @@ public:
         screen_.put(line_.shown(text));
     }
 
-    /// A message: a sentence without the program's name. From any thread.
+    /// Prints a message: a sentence without the program's name. Call it from any thread.
     void say(std::string_view message);
 
-    /// Takes the status line away, and waits for the messages to be written, a second at most.
+    /// Removes the status line, and waits at most a second for the messages to be written.
     void finish();
 
 private:

@@ -27,7 +27,7 @@ struct TypedLink {
 /// The greatest number of links: one for each pair of eight peers.
 inline constexpr std::size_t links_max = 28;
 
-/// Refuses too many, and two of one name or address.
+/// Refuses too many links, and two links with the same name or address.
 [[nodiscard]] base::Result<void> require_different(std::span<const TypedLink> links);
 
 } // namespace hapnet::emulator

@@ -25,7 +25,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// The fates of a run, and the profile that they are to follow.
+/// The fates of a run, and the profile that they should follow.
 struct Evidence {
     Fates fates;
     Profile profile;
@@ -49,7 +49,7 @@ base::Result<Evidence> evidence_in(const std::string& fates_path, base::Result<P
     return Evidence{*std::move(counted), std::move(own)};
 }
 
-/// Returns the evidence from the file of --stats: it holds the profile and names the fates.
+/// Returns the evidence from the file of --stats, which contains the profile and names the fates.
 base::Result<Evidence> evidence_of_statistics(const VerifyOptions& request, const std::string& text)
 {
     const std::string& path = request.run;
@@ -83,7 +83,7 @@ base::Result<Evidence> evidence_of(const VerifyOptions& request)
                                            : load_profile(inside("profile.toml")),
                            request.link);
     }
-    // Fates may be larger than what text_of_file() takes.
+    // Files of fates may be larger than text_of_file() accepts.
     const bool is_json = std::ifstream{request.run}.peek() == '{';
     if (!is_json && request.profile) {
         return evidence_in(request.run, profile_asked_for(request), request.link);

@@ -31,11 +31,12 @@ struct WireEnd {
 /// Sets up eth0 for the command. Use it as net::ChildCommand::Setup::prepare.
 void prepare(const WireEnd& end);
 
-/// Makes the wire to the command, and has it prepare its end. Call it in the emulator's network.
+/// Makes the wire to the command, and lets the command prepare its end. Call it in the emulator's
+/// network.
 void connect(net::ChildCommand& command, const WireEnd& end);
 
-/// A session between two interfaces of the emulator's own network. Throws std::system_error that
-/// names the cure where the system refuses their frames.
+/// Opens a session between two interfaces of the emulator's own network. Throws a std::system_error
+/// that names the remedy if the system refuses their frames.
 [[nodiscard]] std::unique_ptr<FrameSession>
 open_session(const Options& options, const Scenario& scenario, const FrameSession::Setup& setup);
 

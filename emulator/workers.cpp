@@ -28,7 +28,7 @@ public:
         : part_{std::move(part)}, alarm_{alarm}, thread_{[this, timing] { run(timing); }}
     {}
 
-    // The functions from here on are for the main thread.
+    // The functions below are for the main thread.
 
     void ask_to_rest() { is_asked_.store(true); }
     void wait_for_rest() { round_.lock(); }
@@ -90,7 +90,7 @@ private:
     Part part_;
     Alarm& alarm_;
     net::WakeEvent wake_;
-    std::mutex round_; // its holder may use what the part works with
+    std::mutex round_; // its holder may use the data of the part
     std::atomic<bool> is_asked_{false};
     std::atomic<bool> is_woken_{false};
     std::atomic<bool> is_over_{false};

@@ -13,30 +13,30 @@
 
 namespace hapnet::emulator {
 
-/// Threads that relay beside the main one, each its own part of a run. The main thread stops them
-/// between two rounds to look at what they work with, or to change it: they share nothing else, and
-/// a round costs them no more than a free lock.
+/// Threads that relay in addition to the main one, each its own part of a run. The main thread
+/// stops them between two rounds to read or change their data. They share nothing else, and a round
+/// costs them no more than a free lock.
 class Workers {
 public:
     /// The part of one thread.
     struct Part {
         std::vector<int> descriptors; // descriptors to wait for
         std::function<std::optional<base::TimePoint>()> next_deadline;
-        std::function<void()> relay; // relays what has come and what is due
+        std::function<void()> relay; // relays datagrams that have arrived or are due
     };
 
-    /// Starts a thread for each part. They wait as Pacer does, with real-time scheduling where it
-    /// is allowed.
+    /// Starts a thread for each part. The threads wait as Pacer does, with real-time scheduling
+    /// where it is allowed.
     Workers(std::vector<Part> parts, Timing timing);
-    /// Stops them.
+    /// Stops the threads.
     ~Workers();
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
     [[nodiscard]] bool empty() const { return workers_.empty(); }
 
-    /// Keeps all workers out of their rounds as long as one of these lives. Afterwards each looks
-    /// at its deadline again.
+    /// Keeps all workers out of their rounds while an object of this class exists. Afterwards each
+    /// worker reads its deadline again.
     class Rest {
     public:
         explicit Rest(Workers& workers);
@@ -48,7 +48,7 @@ public:
         Workers& workers_;
     };
 
-    /// Readable once a worker has failed.
+    /// Returns a descriptor that is readable once a worker has failed.
     [[nodiscard]] int descriptor() const;
     [[nodiscard]] bool has_failed() const;
 

@@ -32,7 +32,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// It finds the emulator's network by the process, which has entered it by the time that this runs.
+/// Returns the command line. The program finds the emulator's network by the process, which has
+/// entered it by that time.
 std::vector<std::string> words_of(WorldProgram program, const std::string& interface, bool has_ipv6)
 {
     const auto process = std::to_string(getpid());
@@ -49,7 +50,7 @@ std::vector<std::string> words_of(WorldProgram program, const std::string& inter
     } else {
         words.emplace_back("--ipv4-only");
     }
-    // It takes no port of the machine, and gives the command no address of the machine's.
+    // The program forwards no port of the machine, and gives the command no address of the machine.
     for (const auto& [option, value] : {std::pair{"--ns-ifname", interface.c_str()},
                                         {"--mtu", "1500"},
                                         {"--address", World::address_of_command},
@@ -81,7 +82,7 @@ bool has_route_of_ipv6()
     return has_route;
 }
 
-/// The error that neither program is there, whose message is the cure.
+/// The error that neither program is installed. Its message is the remedy.
 class NotInstalled : public std::error_category {
 public:
     [[nodiscard]] const char* name() const noexcept override { return "not installed"; }
@@ -105,10 +106,10 @@ std::string troubles_text(const std::vector<std::string>& troubles)
 
 struct Cure {
     std::string text;
-    int error = 0; // errno that it cures
+    int error = 0; // errno for which this is the remedy
 };
 
-/// Returns the cure for a person, as far as the reason is visible from here.
+/// Returns the remedy for a person, as far as the reason is visible from here.
 Cure cure_of_both()
 {
     constexpr const char* tun = "/dev/net/tun";
@@ -136,8 +137,8 @@ Cure cure_of_both()
             ENETUNREACH};
 }
 
-/// Asks where the router is, as the command will do first, until it is told. The programs make the
-/// interface a while before they serve it.
+/// Asks for the router's address, as the command will do first, until there is an answer. The
+/// programs make the interface some time before they serve it.
 bool await_answer(const std::string& interface, base::TimePoint deadline)
 {
     constexpr std::array<std::uint8_t, 42> question{
@@ -160,7 +161,7 @@ bool await_answer(const std::string& interface, base::TimePoint deadline)
 
 } // namespace
 
-/// One of the two programs, before it runs and while it does.
+/// One of the two programs, before and while it runs.
 class World::Helper {
 public:
     Helper(WorldProgram program, const std::string& interface, bool has_ipv6)
@@ -174,8 +175,8 @@ public:
     [[nodiscard]] net::ChildCommand& process() { return process_; }
     [[nodiscard]] bool is_installed() const { return is_installed_; }
 
-    /// Starts the program, which makes the interface. Returns nullopt when the interface is there,
-    /// otherwise what went wrong.
+    /// Starts the program, which makes the interface. Returns nullopt when the interface exists,
+    /// otherwise an error message.
     std::optional<std::string> open(const std::string& interface)
     {
         constexpr base::Duration patience = 10s;
@@ -204,7 +205,7 @@ public:
         try {
             if (await_answer(interface, deadline)) return std::nullopt;
         } catch (const std::system_error&) {
-            return std::nullopt; // its frames cannot be read: open_session() says why
+            return std::nullopt; // its frames cannot be read; open_session() reports why
         }
         process_.signal(SIGKILL);
         return "it answered nothing within 10 s";
@@ -223,7 +224,7 @@ private:
         Output& operator=(const Output&) = delete;
         [[nodiscard]] int descriptor() const { return descriptor_; }
 
-        /// Its last line; "" when there is none.
+        /// Returns its last line; "" when there is none.
         [[nodiscard]] std::string last_line() const
         {
             std::string text(4096, '\0');
@@ -232,7 +233,7 @@ private:
                 text.substr(0, length > 0 ? static_cast<std::size_t>(length) : 0)};
             std::string last;
             for (std::string line; std::getline(lines, line);) {
-                // pasta writes to the log of the system, too, and says when there is none.
+                // pasta also writes to the log of the system, and reports when there is none.
                 if (!line.empty() && line.find("to syslog") == std::string::npos) last = line;
             }
             return last;

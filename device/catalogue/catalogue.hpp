@@ -14,7 +14,7 @@
 
 namespace hapnet::device {
 
-/// Options of a device besides its name. Files are paths.
+/// The options of a device, in addition to its name. Files are paths.
 struct DeviceOptions {
     std::string hd_library{};            // hdapi: vendor's library; "": found by its usual names
     std::string dhd_library{};           // dhd: vendor's library; "": found by its usual names
@@ -26,10 +26,10 @@ struct DeviceOptions {
     double hid_travel_m = 0.16;          // hid: travel of the grip between the stops of an axis
 };
 
-/// A kind of real device, and the way to its devices.
+/// A kind of real device, with the functions that find and open such devices.
 struct Backend {
     std::string_view name; // as in --device NAME:SERIAL
-    std::string_view what; // the devices that it is for
+    std::string_view what; // description of the devices
     /// Returns all devices of this kind that can be found without opening one.
     std::vector<Found> (*find)(const DeviceOptions& options);
     /// Opens the device with this serial; "": the first usable one.
@@ -46,13 +46,13 @@ struct DeviceName {
     std::string serial; // "": any device of this backend
 };
 
-/// Reads BACKEND or BACKEND:SERIAL, of the backends that there are.
+/// Reads BACKEND or BACKEND:SERIAL. The backend must exist.
 [[nodiscard]] base::Result<DeviceName> parse_device_name(std::string_view text);
 
-/// Every device of every backend that can be seen without opening it.
+/// Returns every device of every backend that can be seen without opening it.
 [[nodiscard]] std::vector<Found> find_devices(const DeviceOptions& options);
 
-/// Opens BACKEND or BACKEND:SERIAL. Without a serial the first that is usable.
+/// Opens BACKEND or BACKEND:SERIAL. Without a serial it opens the first usable device.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_device(const std::string& name,
                                                           const DeviceOptions& options);
 

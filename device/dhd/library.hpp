@@ -7,15 +7,15 @@
 
 namespace hapnet::device::dhd {
 
-// The part of the binary interface of libdhd, the haptic library of Force Dimension's SDK, that is
-// used here. The numbers are facts of that interface, as public bindings list them
-// (forcedimension_core for Python, sawForceDimensionSDK); the names are ours. Metres and newtons; x
-// points toward the user, y to the right, z up.
+// The used part of the binary interface of libdhd, the haptic library of Force Dimension's SDK. The
+// numbers are facts of that interface, as public bindings list them (forcedimension_core for
+// Python, sawForceDimensionSDK); the names are ours. Units are metres and newtons; x points toward
+// the user, y to the right, z up.
 
 /// The number of an open device. This program never uses -1, which means the default device.
 using Id = char;
 
-/// The result of a function that has failed: see last_error(). Results above 0 are harmless, such
+/// The result of a function that has failed; see last_error(). Results above 0 are harmless, such
 /// as a saturated motor.
 inline constexpr int failed = -1;
 
@@ -33,7 +33,8 @@ inline constexpr int redundancy_failed = 18;
 inline constexpr int in_use = 20;
 } // namespace error
 
-/// Places in the status of a device; 1 is yes. Libraries since 3.0 fill in 12 to 17 of them.
+/// Indices in the status of a device; the value 1 means yes. Libraries since 3.0 fill in 12 to 17
+/// of them.
 namespace status {
 inline constexpr std::size_t power = 0;
 inline constexpr std::size_t connected = 1;
@@ -44,7 +45,7 @@ inline constexpr std::size_t force_off_cause = 14;
 } // namespace status
 using Status = std::array<int, 32>; // larger than today's libraries need, for later ones
 
-/// Why the device itself switched its motors off.
+/// The causes for which the device itself switches its motors off.
 namespace force_off {
 inline constexpr int velocity = 2;
 } // namespace force_off

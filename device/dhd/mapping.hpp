@@ -14,7 +14,7 @@
 
 namespace hapnet::device::dhd {
 
-/// The fault for one of the library's error codes.
+/// Returns the fault for one of the library's error codes.
 [[nodiscard]] Fault fault_of(int code);
 
 /// Returns a vector of the library's frame in the device frame.
@@ -28,14 +28,14 @@ namespace hapnet::device::dhd {
     return {it.z, it.x, it.y};
 }
 
-/// The assumed abilities of any device behind the library, which states none: peak force,
-/// continuous force and stiffness of an Omni's data sheet, within a cube of 80 mm around the
-/// device's origin.
+/// Returns the assumed abilities of any device behind the library, because the library does not
+/// state them: peak force, continuous force and stiffness of an Omni's data sheet, within a cube of
+/// 80 mm around the device's origin.
 [[nodiscard]] Capabilities capabilities();
 
 /// The results of one round of calls.
 struct Reading {
-    int result = 0;          // of the first call that failed; 0 or more: all calls succeeded
+    int result = 0;          // result of the first call that failed; 0 or more: all calls succeeded
     int error = error::none; // error code of the call that failed
     std::array<double, 3> position{};
     std::array<double, 3> velocity{};
@@ -43,13 +43,13 @@ struct Reading {
     Status status{};
 };
 
-/// Turns readings into reports, and counts what fails in a row.
+/// Converts readings to reports, and counts consecutive failures.
 class Interpreter {
 public:
-    /// `wants_force`: the motors were asked for in this round.
+    /// `wants_force`: this round requested that the motors be on.
     [[nodiscard]] polled::Report report_of(const Reading& reading, bool wants_force);
 
-    /// After this many rounds in a row with a communication error, the device counts as gone.
+    /// After this many consecutive rounds with a communication error, the device counts as gone.
     static constexpr int gone_after = 100;
 
 private:
@@ -59,7 +59,7 @@ private:
     bool had_force_ = false; // the motors were requested and on in the last round
 };
 
-/// Returns the message about a device that does not open, with the cure.
+/// Returns the message about a device that does not open, with the remedy.
 [[nodiscard]] std::string describe_error(const std::string& serial, int code);
 
 } // namespace hapnet::device::dhd

@@ -21,14 +21,14 @@ Capabilities capabilities_of_falcon()
     const base::Position corner{{reach_m, reach_m, reach_m}};
     return {.workspace_min = {-corner.value},
             .workspace_max = corner,
-            // CHAI3D's table of devices, for the first, the third and the fourth.
+            // The peak force, the stiffness and the damping are from CHAI3D's table of devices.
             .force_max_n = 8.0,
-            // An estimate, as nothing is published: the share of the peak that an Omni's motors
-            // bear without a time limit.
+            // An estimate, as nothing is published: the share of the peak that an Omni's motors can
+            // hold without a time limit.
             .force_continuous_n = 2.1,
             .stiffness_max_n_per_m = 3000.0,
             .damping_max_ns_per_m = 20.0,
-            // The Jacobian times a count, at the middle of the workspace: computed.
+            // Computed: the Jacobian times one count, at the middle of the workspace.
             .resolution_m = 0.00005,
             .speed_max_m_per_s = 1.0,
             .buttons = 4,
@@ -47,8 +47,8 @@ std::uint8_t ours(std::uint8_t theirs)
     return static_cast<std::uint8_t>(bit(2, 0) | bit(0, 1) | bit(1, 2) | bit(3, 3));
 }
 
-/// The motor counts for a torque. If a motor cannot reach its count, all are scaled down together,
-/// so that the direction stays.
+/// Returns the motor counts for a torque. If one exceeds the motor's range, all are scaled down
+/// together, so that the direction stays.
 Counts counts_for(const glm::dvec3& torque_nm)
 {
     // A positive count drives an arm toward smaller angles.
@@ -174,7 +174,8 @@ void Falcon::apply(const GovernedForce& force)
 {
     const Command command = command_for(force);
     const bool pushes = command.motors != Counts{};
-    // One question at a time; but the end of a push waits for no answer.
+    // Only one unanswered packet is allowed at a time, but the packet that ends a push does not
+    // wait for an answer.
     const bool is_late = unanswered_since_ && now_ - *unanswered_since_ >= lost_after;
     const bool ends_push = pushes_ && !pushes;
     if (unanswered_since_ && !is_late && !ends_push) return;
@@ -185,7 +186,8 @@ void Falcon::apply(const GovernedForce& force)
 
 void Falcon::halt() noexcept
 {
-    // The last sample belongs to the other thread and is not used here: the light goes out, too.
+    // The last sample belongs to the other thread and is not used here, so the light is switched
+    // off, too.
     link_->interrupt(encode(Command{}));
 }
 

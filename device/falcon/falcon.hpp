@@ -45,9 +45,9 @@ public:
     void apply(const GovernedForce& force) override;
     void halt() noexcept override;
 
-    /// Silence, or nonsense, for longer than silence_max is a fault, if the device was read at
-    /// least silent_reads_min times meanwhile. A host that did not read in time cannot know of a
-    /// silence.
+    /// Silence, or invalid reports, for longer than silence_max is a fault, if the device was read
+    /// at least silent_reads_min times in that time. A host that did not read in time cannot detect
+    /// a silence.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
     static constexpr int silent_reads_min = 5;
     /// A packet without an answer after this time counts as lost.

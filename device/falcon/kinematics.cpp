@@ -11,7 +11,8 @@ namespace hapnet::device::falcon {
 
 namespace {
 
-// Stamper's names, metres. Each leg has a frame of its own: u away from the middle, w like z.
+// Stamper's symbols, in metres. Each leg has a frame of its own: u points away from the middle, w
+// is parallel to z.
 constexpr double a = 0.060;    // the upper arm, from its motor to the knee
 constexpr double b = 0.1025;   // the long sides of the parallelogram below it
 constexpr double c = 0.01443;  // from the shin's end to the grip's middle, along u
@@ -27,12 +28,13 @@ constexpr double angle_at_zero = 35.0 / 180.0 * pi;
 constexpr double angle_per_count = 2.0 * pi / counts_per_turn * shaft_over_arm;
 
 constexpr int iterations_max = 30;
-constexpr double step_max_m = 0.03;   // longer steps may leave the branch that legs can be on
+// longer steps may leave the branch that is possible for the legs
+constexpr double step_max_m = 0.03;
 constexpr double converged_m = 1e-11; // a step of this length ends the iteration
 constexpr double angle_error_max = 1e-9;
 constexpr double determinant_min = 1e-9; // for unit normals; below it the arm is stretched out
 
-/// The angles of the legs around z: 90, -30 and -150 degrees, the whole turned by 15.
+/// The angles of the legs around z: 90, -30 and -150 degrees, all turned by 15.
 constexpr std::array<double, 3> azimuths{105.0, -15.0, -135.0};
 
 struct Leg {
@@ -56,14 +58,14 @@ const std::array<Leg, 3>& legs()
 
 double dot(const glm::dvec3& p, const glm::dvec3& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
 
-/// A place in a leg's frame, from the motor's axle.
+/// Returns a position in a leg's frame, relative to the motor's axle.
 glm::dvec3 in_leg(const Leg& leg, const base::Position& grip)
 {
     return {dot(leg.u, grip.value) - r, dot(leg.v, grip.value) - s, grip.z() + origin_z_m};
 }
 
-/// The shin's length demands (rho - (d + e))^2 + (v + f)^2 = b^2, rho being the distance in the u-w
-/// plane from the knee to the shin's end: a torus around the knee.
+/// The constraint by the shin's length, (rho - (d + e))^2 + (v + f)^2 = b^2, where rho is the
+/// distance in the u-w plane from the knee to the shin's end: a torus around the knee.
 struct Constraint {
     double value;        // 0 where the shin fits
     glm::dvec3 gradient; // derivative by the grip's position, in the common frame
@@ -86,7 +88,7 @@ Constraint constraint_of(const Leg& leg, double angle, const base::Position& gri
             share * a * (along_u * sine - along_w * cosine)};
 }
 
-/// The inverse of the matrix whose rows these are; nullopt when they are nearly in one plane.
+/// Returns the inverse of the matrix with these rows; nullopt when they are nearly in one plane.
 std::optional<glm::dmat3> inverse_of_rows(const std::array<Constraint, 3>& constraints)
 {
     glm::dmat3 columns{};

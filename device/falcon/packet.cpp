@@ -24,7 +24,7 @@ bool is_framed(std::span<const std::byte, packet_bytes> bytes)
     return bytes.front() == opening && bytes.back() == closing;
 }
 
-/// The number at this place; nullopt when it is more than `most`.
+/// Returns the number at this position; nullopt when it is more than `most`.
 std::optional<unsigned> number_at(std::span<const std::byte, packet_bytes> bytes, std::size_t at,
                                   unsigned most)
 {
@@ -112,7 +112,7 @@ std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> b
 
 std::optional<Packet> PacketFinder::feed(std::byte byte)
 {
-    // '<' is only at the beginning of a packet: the bytes before it were no packet.
+    // '<' occurs only at the beginning of a packet, so the bytes before it were no packet.
     if (byte == opening) {
         skipped_ += size_;
         size_ = 0;

@@ -10,10 +10,10 @@
 
 namespace hapnet::device::falcon {
 
-// The packets between a Falcon and its host once its firmware runs: one of 16 bytes each way, the
-// host's first. '<', three numbers of 16 bits in four nibbles each, the least significant
-// first, two bytes of flags, '>'; to each nibble and flag 'A' is added. Known from libnifalcon
-// (src/firmware/FalconFirmwareNovintSDK.cpp), not from the device's maker.
+// The packets between a Falcon and its host once its firmware runs: 16 bytes in each direction, the
+// host's packet first. A packet is '<', three numbers of 16 bits in four nibbles each, the least
+// significant first, two bytes of flags, '>'. 'A' is added to each nibble and flag. Known from
+// libnifalcon (src/firmware/FalconFirmwareNovintSDK.cpp), not from the device's maker.
 
 inline constexpr std::size_t packet_bytes = 16;
 using Packet = std::array<std::byte, packet_bytes>;
@@ -31,7 +31,7 @@ struct Command {
     friend bool operator==(const Command&, const Command&) = default;
 };
 
-/// The motors take no more than this, either way.
+/// The greatest magnitude of a motor value.
 inline constexpr int motor_max = 4096;
 
 /// A packet from the device.
@@ -51,14 +51,14 @@ inline constexpr std::uint8_t all_legs = 0x7;
 [[nodiscard]] std::optional<Report> decode_report(std::span<const std::byte, packet_bytes> bytes);
 [[nodiscard]] std::optional<Command> decode_command(std::span<const std::byte, packet_bytes> bytes);
 
-/// Finds packets in a stream of bytes of which some may be missing or wrong: each packet whose 16
-/// bytes came without a break is found, whatever is around it.
+/// Finds packets in a stream of bytes, some of which may be missing or wrong. It finds each packet
+/// whose 16 bytes came without interruption, whatever is around it.
 class PacketFinder {
 public:
-    /// Takes one byte; gives the packet that it ends.
+    /// Takes one byte. Returns the packet that this byte completes, if any.
     [[nodiscard]] std::optional<Packet> feed(std::byte byte);
 
-    /// Bytes that belonged to no packet.
+    /// Returns the number of bytes that belonged to no packet.
     [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
 private:

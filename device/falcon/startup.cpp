@@ -53,9 +53,9 @@ std::vector<std::byte> bytes_of(const std::array<std::byte, size>& bytes)
     return {bytes.begin(), bytes.end()};
 }
 
-// Limits by phase. First the number of tries of each message. Then the number of the chip's answers
-// without a byte of the Falcon's after which the message is sent again: such answers come every 16
-// ms from a loader, and otherwise every 1 ms.
+// Limits by phase. The first limit is the number of tries of each message. The second is the number
+// of answers of the chip without a byte from the Falcon after which the message is sent again. Such
+// answers come every 16 ms from a loader, and otherwise every 1 ms.
 constexpr std::array tries_max{10, 30, 3, 1};
 constexpr std::array empty_max{30, 4, 10, 30};
 
@@ -81,7 +81,7 @@ void Startup::begin(Phase phase)
     advance();
 }
 
-/// Goes on with the phase: first with its preparations, then with its own messages.
+/// Continues the phase: first with its preparations, then with its own messages.
 void Startup::advance()
 {
     if (plan_.empty()) {

@@ -16,7 +16,7 @@
 
 namespace hapnet::device::falcon {
 
-/// A request to the FTDI chip that stands between the bus and the Falcon.
+/// A request to the FTDI chip between the USB and the Falcon.
 struct ChipRequest {
     std::uint8_t request = 0;
     std::uint16_t value = 0;
@@ -27,7 +27,7 @@ struct ChipRequest {
 struct SendBytes {
     std::vector<std::byte> bytes;
 };
-/// Wait for one answer of the chip, which may hold no byte of the Falcon's.
+/// Wait for one answer of the chip, which may contain no byte from the Falcon.
 struct Listen {
     base::Duration at_most;
 };
@@ -40,22 +40,23 @@ struct Refused {
 using Step = std::variant<ChipRequest, SendBytes, Listen, Ready, Refused>;
 
 /// Brings a Falcon from its loader to its running firmware, as libnifalcon does
-/// (src/comm/FalconCommLibUSB.cpp, src/core/FalconFirmware.cpp): asks whether it runs already, else
-/// loads it, again and again, as the first attempts often fail. Does no I/O and reads no clock:
-/// carry out step(), say how it went, and again, until it is Ready or Refused. It ends: after 5
-/// attempts.
+/// (src/comm/FalconCommLibUSB.cpp, src/core/FalconFirmware.cpp). It asks whether the firmware runs
+/// already. If it does not, it loads the firmware, up to 5 times, because the first attempts often
+/// fail. Does no I/O and reads no clock: carry out step(), report the outcome, and repeat this
+/// until the step is Ready or Refused.
 class Startup {
 public:
-    /// `firmware`: Novint's, as in a file of theirs; empty: there is none.
+    /// `firmware` is the contents of a firmware file of Novint; empty: there is none.
     explicit Startup(std::vector<std::byte> firmware);
 
     [[nodiscard]] const Step& step() const { return step_; }
 
-    /// A ChipRequest or a SendBytes was carried out.
+    /// Notes that a ChipRequest or a SendBytes was carried out.
     void on_done();
-    /// The bytes from Listen; empty: the chip had none from the Falcon.
+    /// Takes the bytes that Listen received; empty: the chip had none from the Falcon.
     void on_heard(std::span<const std::byte> bytes);
-    /// Listen brought nothing at all in its time, or a step could not be carried out in its.
+    /// Notes that Listen received no answer in its time, or that another step could not be carried
+    /// out in time.
     void on_silence();
 
     static constexpr int attempts_max = 5;

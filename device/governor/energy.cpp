@@ -48,7 +48,8 @@ void EnergyGuard::add(const Step& step)
     Step& oldest = steps_[next_step_];
     oldest = step;
     next_step_ = next_step_ + 1 < steps_used_ ? next_step_ + 1 : 0;
-    // Everything is summed up again, because adding and subtracting leave roundings behind.
+    // Everything is summed up again, because adding and subtracting would accumulate rounding
+    // errors.
     lately_ = {};
     for (std::size_t i = 0; i < steps_used_; ++i) {
         lately_.moved += steps_[i].moved;
@@ -87,7 +88,7 @@ base::Force EnergyGuard::allow(const base::Force& wanted, const base::Velocity& 
     const double left_j = limits_.work_max_j - (figures_.net_j - lowest_j);
     if (left_j <= 0.0) return {};
     const double power_w = std::min({limits_.power_max_w, left_j / reserve_s, power_left_w()});
-    // A filtered velocity is smoother, the difference of places is newer.
+    // A filtered velocity is smoother, and the difference of positions is more recent.
     glm::dvec3 velocity = reported.value;
     if (lately_.seconds > 0.0) {
         const glm::dvec3 newer = (1.0 / lately_.seconds) * lately_.moved.value;
@@ -104,7 +105,8 @@ base::Force EnergyGuard::without_push(const base::Force& wanted, const glm::dvec
     if (!(pushes_w > 0.0)) return wanted;
     const double all_w = pushes_w + mobility * dot(wanted.value, wanted.value);
     if (all_w <= power_w) return wanted;
-    // The share s of the part along the motion with s p + m (s^2 along^2 + across^2) = power.
+    // The share s of the part along the motion is the solution of s p + m (s^2 along^2 + across^2)
+    // = power.
     const double speed_squared = dot(velocity, velocity);
     const glm::dvec3 along = (pushes_w / speed_squared) * velocity;
     const glm::dvec3 across = wanted.value - along;

@@ -12,8 +12,8 @@
 
 namespace hapnet::device {
 
-/// Limits of the energy that the motors give to a hand beyond what the hand gives to them. Both are
-/// above 0.
+/// Limits of the energy that the motors give to a hand in excess of the energy that the hand gives
+/// to them. Both are above 0.
 struct EnergyLimits {
     double power_max_w = 0.46;
     double work_max_j = 0.15; // net work within any 5 s: 30 mW on average
@@ -32,7 +32,7 @@ constexpr auto fields_of(base::Tag<EnergyLimits> /*struct*/)
                                     "hand's own work on them subtracted"));
 }
 
-/// The work between motors and hand, all counted as positive into the hand.
+/// The work between motors and hand. Work into the hand is positive.
 struct EnergyFigures {
     double net_j = 0.0;
     double net_max_j = 0.0; // 0 for a passive device
@@ -51,21 +51,22 @@ constexpr auto fields_of(base::Tag<EnergyFigures>)
         base::member("power_max_w", &E::power_max_w, "The highest mean power of 5 ms."));
 }
 
-/// Observes the energy that a device gives to its hand, and takes from a force what would give too
+/// Observes the energy that a device gives to its hand, and reduces a force that would give too
 /// much: a passivity observer and controller in the time domain (B. Hannaford, J.-H. Ryu:
 /// Time-domain passivity control of haptic interfaces, IEEE Trans. Robotics and Automation 18,
-/// 2002). The copy of a scene is passive, so what a hand gets beyond what it put in came from the
-/// other side. The controller only takes away: the part of the force along the hand's motion, and
-/// all of it where the work is used up. A force against the motion passes, as it takes energy out.
+/// 2002). The copy of a scene is passive, so energy that a hand gets in excess of what it put in
+/// came from the other side. The controller only reduces forces: it limits the part of the force
+/// along the hand's motion, and removes that part completely when the permitted work is used up. A
+/// force against the motion passes, because it takes energy out.
 class EnergyGuard {
 public:
     /// `tick`: the usual time between two calls of pass().
     EnergyGuard(const EnergyLimits& limits, base::Duration tick);
 
-    /// Accounts for a force that was held for this time while the hand moved to `hip`. In the
-    /// device's frame.
+    /// Accounts for a force that was held for `duration` while the hand moved to `hip`. Both are in
+    /// the device's frame.
     void pass(const base::Force& held, const base::Position& hip, base::Duration duration);
-    /// Call it when the device does not report where the hand is. The next place is then not
+    /// Call this when the device does not report where the hand is. The next position is then not
     /// compared with the last one.
     void lose_place() { placed_ = false; }
 
@@ -74,12 +75,13 @@ public:
 
     [[nodiscard]] const EnergyFigures& figures() const { return figures_; }
 
-    /// The mass of the lightest hand for which the limit of the power is kept, and the time by
-    /// which a velocity that was measured over 5 ms lags behind the next tick: a force makes the
-    /// hand faster during that time.
+    /// The mass of the lightest hand for which the limit of the power is kept, and the lag of a
+    /// velocity that was measured over 5 ms behind the next tick: a force makes the hand faster
+    /// during that time.
     static constexpr double hand_kg = 0.2;
     static constexpr double behind_s = 0.003;
-    /// Work that is left is given out evenly over this time, so that the last of it is no step.
+    /// The time over which the remaining work is distributed, so that the force has no step when
+    /// the work is used up.
     static constexpr double reserve_s = 0.005;
 
 private:
@@ -88,7 +90,8 @@ private:
         double seconds = 0.0;
         double work_j = 0.0;
     };
-    /// The lowest net_j is kept for each piece of this length; all pieces together cover 5 s.
+    /// The length of a piece, for each of which the lowest net_j is kept. All pieces together cover
+    /// 5 s.
     static constexpr base::Duration piece{std::chrono::milliseconds{50}};
     static constexpr std::size_t pieces = 100;
     static constexpr std::size_t steps_max = 50;

@@ -9,11 +9,11 @@
 
 namespace hapnet::device {
 
-/// Holds a fault until an operator acts: puts the stylus into its holder, where it then rests for
-/// 50 ms, or presses the primary button after it was at rest for a second, and holds it for 0.3 s.
-/// Never opens by itself, nor by a button that flickers or that was down already, nor while the
-/// device is still at fault; but a stylus that was put there meanwhile counts, as for some faults
-/// that is the cure.
+/// Holds a fault until an operator acts. The operator either puts the stylus into its holder, where
+/// it then rests for 50 ms, or presses the primary button after the stylus was at rest for a
+/// second, and holds it for 0.3 s. The latch never opens by itself, by a button that flickers or
+/// that was down already, or while the device is still at fault. A stylus that was put into its
+/// holder during the fault counts, because this is the remedy for some faults.
 class FaultLatch {
 public:
     [[nodiscard]] bool is_closed() const { return latched_.fault != Fault::none; }
@@ -23,18 +23,19 @@ public:
     bool close(const Latched& cause);
     void open() { latched_ = {}; }
 
-    /// Takes a sample without a fault, `passed` after the one before. Returns true if the operator
-    /// has just opened the latch.
+    /// Takes a sample without a fault, `passed` after the previous sample. Returns true if the
+    /// operator has just opened the latch.
     bool on_sample(const Sample& sample, base::Duration passed);
-    /// A sample that is at fault or old: what the operator did before counts no more, but that the
-    /// stylus was out of its holder.
+    /// Takes a sample that has a fault or is old. Earlier actions of the operator then no longer
+    /// count, but it is remembered that the stylus was out of its holder.
     void on_bad_sample(const Sample& sample)
     {
         last_.reset();
         was_out_ = was_out_ || !sample.docked;
     }
 
-    /// Slower than this the stylus is at rest: a filtered count of an encoder and a tremor are.
+    /// Below this speed the stylus is at rest. The filtered speed of one encoder count and that of
+    /// a tremor are below it.
     static constexpr double rest_speed_max_m_per_s = 0.05;
     static constexpr base::Duration rest_needed{std::chrono::seconds{1}};
     /// A button that is down for a shorter time was touched by mistake, or has a bad contact.

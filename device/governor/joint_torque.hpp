@@ -10,8 +10,9 @@
 
 namespace hapnet::device {
 
-/// The largest share of this force, 0 to 1, that overtaxes no joint's motor: torques are the
-/// transposed Jacobian times the force. 0 where a torque is not finite, as at a place out of reach.
+/// Returns the largest share of this force, 0 to 1, that overloads no joint's motor. Torques are
+/// the transposed Jacobian times the force. 0 where a torque is not finite, as at a position out of
+/// reach.
 [[nodiscard]] inline double share_that_joints_bear(const JointLimits& joints,
                                                    const base::Position& position,
                                                    const base::Force& force)

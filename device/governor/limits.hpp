@@ -15,9 +15,9 @@
 
 namespace hapnet::device {
 
-/// The limits of the force on a hand. A person and the program choose the first part. The device
-/// gives the second; without a device there is no such limit. limits_for() puts the two together.
-/// docs/design/governor.md gives the sources of the numbers.
+/// The limits of the force on a hand. A person and the program choose the first part of them. The
+/// device determines the second part; without a device these limits are infinite. limits_for()
+/// combines both. docs/design/governor.md gives the sources of the numbers.
 struct GovernorLimits {
     double force_max_n = 3.3;         // peak; default: the Omni's
     double slew_max_n_per_s = 1000.0; // a contact may rise in a few ticks, but not kick
@@ -25,15 +25,15 @@ struct GovernorLimits {
     base::Duration ramp_in{std::chrono::seconds{1}};
     base::Duration tick{std::chrono::milliseconds{1}};       // a late tick grants no larger step
     base::Duration stall_max{std::chrono::milliseconds{20}}; // longer gaps restart from zero
-    /// A device or a loop that is silent for longer than stall_max gives zero, for longer than
-    /// this a fault.
+    /// If a device or a loop is silent for longer than stall_max, the force is zero. If it is
+    /// silent for longer than fault_after, that is a fault.
     base::Duration fault_after{std::chrono::milliseconds{100}};
     double slew_ramping_n_per_s = 100.0; // limit for a growing force during the ramp from zero
     base::Duration heat_time{std::chrono::seconds{15}}; // time constant of the motors' heat
     double heat_start = 0.0; // heat of the motors when the program starts
-    /// True to compare motion and force: an encoder that stands still, or motors that push the
-    /// wrong way, are then faults. For real devices only; simulated and replayed hands are
-    /// consistent.
+    /// True to compare motion and force: an encoder that does not change, or motors that push in
+    /// the wrong direction, are then faults. For real devices only; simulated and replayed hands
+    /// are consistent.
     bool checks_motion = false;
 
     // Limits of the device, in its own frame.
@@ -49,8 +49,8 @@ struct GovernorLimits {
     std::optional<EnergyLimits> energy{};
 };
 
-/// The fields of the first part. Outside these ranges a rule would never act, always act, or do
-/// harm: a slow slew, for example, keeps a force that should end. Zero force is possible.
+/// Describes the fields of the first part. Outside these ranges a rule would never act, always act,
+/// or do harm: a slow slew, for example, keeps a force that should end. Zero force is possible.
 constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
 {
     using namespace std::chrono_literals;
@@ -85,13 +85,13 @@ constexpr auto fields_of(base::Tag<GovernorLimits> /*struct*/)
                     "energy into the hand; without it that is neither observed nor limited"));
 }
 
-/// An error when no governor can keep to these limits: a rule would never act, or always, or divide
-/// by zero. A peak below the continuous force is valid: a person may want it softer than the motors
-/// could be.
+/// Returns an error when no governor can keep to these limits: a rule would never act, or always
+/// act, or divide by zero. A peak below the continuous force is valid: a person may want a softer
+/// force than the motors can give.
 [[nodiscard]] base::Result<void> validate(const GovernorLimits& limits);
 
-/// The limits for this device: the stricter of each pair. A device that does not state its
-/// continuous force is assumed to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).
+/// Returns the limits for this device: the stricter one of each pair. A device that does not state
+/// its continuous force is assumed to bear a quarter of its peak, as the Omni does (0.88 of 3.3 N).
 [[nodiscard]] GovernorLimits limits_for(const Capabilities& capabilities,
                                         const GovernorLimits& limits);
 

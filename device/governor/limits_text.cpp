@@ -12,7 +12,7 @@ namespace hapnet::device {
 
 namespace {
 
-/// A corner of the workspace, as far as it is limited.
+/// A corner of the workspace, with the coordinates that are limited.
 struct WrittenCorner {
     std::optional<double> x_m{};
     std::optional<double> y_m{};
@@ -26,7 +26,7 @@ constexpr auto fields_of(base::Tag<WrittenCorner> /*struct*/)
                         base::field("z", &WrittenCorner::z_m, place, "z"));
 }
 
-/// The torques of an arm's joints; written as forces at an arm of one metre.
+/// The torques of an arm's joints, written as forces at an arm of one metre.
 struct WrittenTorques {
     std::optional<double> x_nm{};
     std::optional<double> y_nm{};
@@ -40,7 +40,7 @@ constexpr auto fields_of(base::Tag<WrittenTorques> /*struct*/)
                         base::field("z", &WrittenTorques::z_nm, torque, "third joint"));
 }
 
-/// Limits as they are written: infinite ones are left out.
+/// Limits in the form of the text, without infinite ones.
 struct WrittenLimits {
     GovernorLimits limits{};
     std::optional<double> continuous_n{};
@@ -77,14 +77,15 @@ WrittenCorner written(const base::Position& corner)
     return {unless_infinite(corner.x()), unless_infinite(corner.y()), unless_infinite(corner.z())};
 }
 
-/// The corner with the written coordinates; those left out stay infinite.
+/// Returns the corner with the written coordinates. Missing ones stay infinite.
 base::Position read_corner(const WrittenCorner& corner, const base::Position& infinite)
 {
     return {{corner.x_m.value_or(infinite.x()), corner.y_m.value_or(infinite.y()),
              corner.z_m.value_or(infinite.z())}};
 }
 
-/// The joints' limits in the table; an error text when there are several or not all of one.
+/// Returns the joints' limits in the table, or an error text when there are several mechanisms or a
+/// value is missing.
 base::Result<std::optional<JointLimits>> read_joints(base::TableReader& table,
                                                      std::span<const Mechanism> mechanisms)
 {

@@ -13,19 +13,19 @@
 
 namespace hapnet::device {
 
-/// Limits as TOML, for records; an infinite limit is left out. The mechanism of limited joints must
-/// have a key.
+/// Returns the limits as TOML, for records. Infinite limits are left out. The mechanism of limited
+/// joints must have a key.
 [[nodiscard]] std::string print_limits(const GovernorLimits& limits);
 
-/// Reads what print_limits() wrote, to the same bits. `source` names the text in errors, which
-/// begin with "SOURCE:LINE:COLUMN: ", or with "SOURCE: " when two keys contradict each other.
-/// Values that would make a rule meaningless are refused, such as a ramp of no length. Joints are
-/// limited for one of these mechanisms.
+/// Reads the output of print_limits(), and restores each value to the bit. `source` names the text
+/// in errors, which begin with "SOURCE:LINE:COLUMN: ", or with "SOURCE: " when two keys contradict
+/// each other. Values that would make a rule meaningless are refused, such as a ramp of no length.
+/// Limits of joints must be for one of these mechanisms.
 [[nodiscard]] base::Result<GovernorLimits> parse_limits(std::string_view text,
                                                         const std::string& source,
                                                         std::span<const Mechanism> mechanisms);
 
-/// The keys of that text except the joints', for the docs.
+/// Returns the keys of that text except those of the joints, for the docs.
 [[nodiscard]] std::vector<base::KeyRow> limit_keys();
 
 } // namespace hapnet::device

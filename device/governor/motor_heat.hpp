@@ -9,11 +9,11 @@
 
 namespace hapnet::device {
 
-/// Estimates the heat of the motors from the square of the force over time (I2t), as no device
+/// Estimates the heat of the motors from the square of the force over time (I2t), because no device
 /// measures it well: heat' = (|f|^2 / continuous^2 - heat) / time. A heat of 1 is the temperature
-/// at the continuous force. Above 1 the limit decreases evenly from the peak to the continuous
-/// force. This causes no fault, and the force exceeds the continuous force by at most 5 % in the
-/// end.
+/// at the continuous force. Above 1 the limit decreases linearly from the peak to the continuous
+/// force. This causes no fault, and in the steady state the force exceeds the continuous force by
+/// at most 5 %.
 class MotorHeat {
 public:
     /// `continuous_n`: the force that the motors can hold without limit in time, N; infinity: any
@@ -37,7 +37,8 @@ public:
         heat_ += share_ * (goal - heat_);
     }
 
-    /// The largest force that the motors may give now; `peak_n` is the largest force of all.
+    /// Returns the largest force that the motors may give now. `peak_n` is the largest force of
+    /// all.
     [[nodiscard]] double force_max_n(double peak_n) const
     {
         if (heat_ <= 1.0 || continuous_n_ >= peak_n) return peak_n;

@@ -9,8 +9,8 @@ namespace hapnet::device {
 
 namespace {
 
-// A sample may be this much older, or newer, than the moment in which it was read: a step within so
-// much time at the highest speed is no jump.
+// The greatest difference between the time of a sample and the time at which it was read. A step
+// that is possible within this additional time at the highest speed is no jump.
 constexpr base::Duration jump_grace{std::chrono::milliseconds{4}};
 
 double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
@@ -20,7 +20,7 @@ double squared(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; 
 SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample& sample,
                                       base::Duration passed, const Push& push)
 {
-    const bool says_silent = sample.fault == Fault::timeout; // the backend hears nothing
+    const bool says_silent = sample.fault == Fault::timeout; // the backend receives nothing
     if (sample.fault != Fault::none && !says_silent) {
         placed_ = false;
         return {Finding::tripped, {sample.fault, Trip::device}};
@@ -31,7 +31,7 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
     sequence_ = sample.sequence;
     silence_ += passed;
     const base::Duration since_last = silence_;
-    // A device without motors may be silent: a cap or a grip at rest reports nothing.
+    // A device without motors may be silent: a cap or a grip at rest sends no reports.
     if (is_new || (limits.axes_out <= 0 && !says_silent)) silence_ = base::Duration{0};
 
     if (silence_ >= limits.fault_after) {
@@ -61,7 +61,8 @@ SampleCheck::Result SampleCheck::look(const GovernorLimits& limits, const Sample
     return {sample.docked ? Finding::docked : Finding::usable};
 }
 
-/// Compares motion and force. Returns the reason why they do not fit together; Trip::none: they do.
+/// Compares motion and force. Returns the reason why they are inconsistent; Trip::none: they are
+/// consistent.
 Trip SampleCheck::misfit(const Sample& sample, base::Duration passed, const Push& push, bool is_new)
 {
     constexpr base::Duration piece{std::chrono::milliseconds{25}};
@@ -69,7 +70,7 @@ Trip SampleCheck::misfit(const Sample& sample, base::Duration passed, const Push
     const bool stays = placed_ && sample.hip == place_ && force_n >= frozen_force_n;
     if (!stays) {
         frozen_ = base::Duration{0};
-    } else if (is_new) { // an old sample says nothing about the encoders
+    } else if (is_new) { // an old sample has no information about the encoders
         frozen_ += passed;
     }
     if (frozen_ >= frozen_after) return Trip::frozen;
@@ -86,7 +87,7 @@ Trip SampleCheck::misfit(const Sample& sample, base::Duration passed, const Push
     const double slowest = std::min(slowest_->now, slowest_->before);
     slowest_->into_piece += passed;
     if (slowest_->into_piece >= piece) slowest_ = Slowest{against, slowest_->now, {}};
-    // One that only slows down on its way through rest has not sped up.
+    // A motion that only slows down through rest has not sped up.
     return against - std::max(0.0, slowest) >= runaway_m_per_s ? Trip::runaway : Trip::none;
 }
 

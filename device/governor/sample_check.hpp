@@ -11,7 +11,7 @@
 
 namespace hapnet::device {
 
-/// The result of checking a sample: whether a force may follow from it, and the reason if not.
+/// The result of checking a sample: whether it permits a force, and the reason if it does not.
 enum class Finding : std::uint8_t {
     usable,
     unheard,      // no report from the device yet
@@ -22,7 +22,7 @@ enum class Finding : std::uint8_t {
     tripped,      // a fault, which must be latched
 };
 
-/// Looks at one sample after the other.
+/// Checks one sample after the other.
 class SampleCheck {
 public:
     struct Result {
@@ -41,12 +41,13 @@ public:
     [[nodiscard]] Result look(const GovernorLimits& limits, const Sample& sample,
                               base::Duration passed, const Push& push);
 
-    /// A position without any change for this long, under this much force, is a fault: a hand
-    /// trembles by more than one count of any encoder.
+    /// The time without any change of the position, under at least a certain force, after which
+    /// there is a fault: a hand trembles by more than one count of any encoder.
     static constexpr base::Duration frozen_after{std::chrono::seconds{3}};
     static constexpr double frozen_force_n = 0.5;
-    /// This increase of speed against this much force, within 25 to 50 ms, is a fault. It is 8
-    /// m/s2, which a hand's push in contact does not reach, and motors with the wrong sign do.
+    /// The increase of speed against at least a certain force, within 25 to 50 ms, that is a fault.
+    /// It is 8 m/s2, which a hand's push in contact does not reach, and motors with the wrong sign
+    /// do.
     static constexpr double runaway_m_per_s = 0.4;
     static constexpr double runaway_force_n = 1.0;
 
@@ -63,7 +64,7 @@ private:
     base::Duration silence_{}; // time since the last new sample
     base::Position place_;     // position in the last new sample
     base::Duration frozen_{};  // time without a change of place_ under force
-    /// The slowest motion against the force in this and the last piece of 25 ms.
+    /// The slowest motion against the force in the current and the previous piece of 25 ms.
     struct Slowest {
         double now = 0.0;
         double before = 0.0;

@@ -15,10 +15,10 @@ enum class Trip : std::uint8_t {
     device,   // the device reported the fault itself
     silence,  // no new report came from the device for too long
     loop,     // this program's loop stood still for too long
-    speed,    // the device moved faster than a hand that holds it
-    jump,     // the device was suddenly elsewhere
-    nonsense, // a place or a velocity that is no number
-    frozen,   // the position stays the same to the last bit, whatever pushes the device
+    speed,    // the device moved faster than a hand can move it
+    jump,     // the position changed too far at once
+    nonsense, // a position or a velocity that is not a number
+    frozen,   // the position does not change at all under force
     runaway,  // the device speeds up against the force: a sign is wrong
 };
 
@@ -37,7 +37,7 @@ struct Latched {
     friend bool operator==(const Latched&, const Latched&) = default;
 };
 
-/// The fault in words, with what to do about it. "" for no fault.
+/// Returns the fault as words, with what to do about it; "" for no fault.
 [[nodiscard]] std::string_view what_happened(const Latched& latched);
 
 } // namespace hapnet::device

@@ -7,8 +7,9 @@
 
 namespace hapnet::device {
 
-/// Outside of its workspace no device is to push the hand farther out: from the border to this far
-/// beyond it what points outward goes evenly to nothing, so that nothing chatters at the border.
+/// The width of the zone outside of the workspace in which the outward part of a force decreases
+/// linearly to zero, so that the force does not chatter at the border. No device is to push the
+/// hand farther out.
 inline constexpr double workspace_margin_m = 0.005;
 
 [[nodiscard]] inline bool is_inside(const GovernorLimits& limits, const base::Position& hip)
@@ -20,7 +21,8 @@ inline constexpr double workspace_margin_m = 0.005;
            p.z <= high.z;
 }
 
-/// Distance of a place beyond the border, on the side to which this part of the force points.
+/// Returns the distance of a position beyond the border on the side to which this part of the force
+/// points.
 [[nodiscard]] inline double beyond(const GovernorLimits& limits, const base::Position& hip,
                                    int axis, double along)
 {
@@ -28,7 +30,7 @@ inline constexpr double workspace_margin_m = 0.005;
                        : limits.workspace_min.value[axis] - hip.value[axis];
 }
 
-/// The force that remains at a place outside of the workspace, axis by axis.
+/// Returns the force that remains at a position outside of the workspace, axis by axis.
 [[nodiscard]] inline base::Force
 with_outward_part_faded(const GovernorLimits& limits, const base::Position& hip, base::Force force)
 {

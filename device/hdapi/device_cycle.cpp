@@ -49,8 +49,8 @@ void DeviceCycle::end(const Command& command, bool is_new)
 }
 
 /// Calibrates in every cycle, as public drivers do (phantom_omni, Geomagic_Touch_ROS_Drivers). An
-/// encoder reset is left out: it makes the arm's present place the origin, and only a person knows
-/// where that is.
+/// encoder reset is left out, because it makes the arm's current position the origin, and only a
+/// person knows where that is.
 void DeviceCycle::calibrate()
 {
     report_.calibration = functions_->check_calibration();

@@ -25,12 +25,12 @@ struct Report {
     bool inkwell_switch = false;
     unsigned int calibration = calibration::needs_update;
     unsigned int error = error::none;    // latest error of this device
-    std::uint64_t error_cycle = 0;       // cycle in which that error came
-    std::uint64_t failures_in_a_row = 0; // latest cycles in a row with a communication error
+    std::uint64_t error_cycle = 0;       // cycle of that error
+    std::uint64_t failures_in_a_row = 0; // consecutive latest cycles with a communication error
 };
 
-/// The work for one device in each cycle of the library's scheduler, in its callback. Keeps the
-/// library's rules: state and force only within a frame, one frame at a time.
+/// The work for one device in each cycle of the library's scheduler, in its callback. It follows
+/// the library's rules: state and force are accessed only within a frame, one frame at a time.
 class DeviceCycle {
 public:
     DeviceCycle(const Functions& functions, Handle handle, int style)
@@ -39,18 +39,19 @@ public:
 
     /// The scheduler is about to start, which by the vendor's reference switches the motors on.
     void on_start() { motors_on_.reset(); }
-    /// Goes on with the calibration, opens the frame, and reads. The motors are off in the first
-    /// frame after a start.
+    /// Continues the calibration, opens the frame, and reads. The motors are off in the first frame
+    /// after a start.
     const Report& begin();
-    /// Sets the force and closes the frame. The force is zero while the library says that the
-    /// device is not calibrated. It is also zero once no command was `is_new` for 20 cycles: the
-    /// thread that gives commands has stopped.
+    /// Sets the force and closes the frame. The force is zero while the library reports that the
+    /// device is not calibrated. It is also zero once no command was `is_new` for 20 cycles,
+    /// because the thread that gives commands has then stopped.
     void end(const Command& command, bool is_new);
     /// Notes an error of this device, after end(). The last call of a cycle counts.
     void note(unsigned int code) { happened_ = code; }
 
     [[nodiscard]] Handle handle() const { return handle_; }
-    /// Frames in a row that sent the device zero force with its motors off.
+    /// Returns the number of consecutive frames that sent the device zero force with its motors
+    /// off.
     [[nodiscard]] std::uint64_t silent_frames() const { return silent_frames_; }
 
     static constexpr std::uint64_t stale_after_cycles = 20; // 20 ms at 1 kHz
@@ -70,10 +71,12 @@ private:
     std::optional<bool> motors_on_; // nullopt: not set since the scheduler's start
 };
 
-/// Largest number of errors that one cycle reads from the library's stack, which may refill itself.
+/// The greatest number of errors that one cycle reads from the library's stack, which may refill
+/// itself.
 inline constexpr int errors_max = 64;
 
-/// Takes the errors off the library's stack: the first that came, as the others follow from it.
+/// Removes all errors from the library's stack. Returns the first one that occurred, as the others
+/// follow from it.
 [[nodiscard]] ErrorInfo first_error(const Functions& functions);
 
 } // namespace hapnet::device::hdapi

@@ -4,9 +4,9 @@
 
 namespace hapnet::device::hdapi {
 
-// The part of the binary interface of libHD, the vendor's library for the PHANToM family, that is
-// used here. The numbers are facts of that interface, as public bindings list them (pyOpenHaptics,
-// OpenHaptics4CSharp; both MIT); the names are ours. Lengths are millimetres there.
+// The used part of the binary interface of libHD, the vendor's library for the PHANToM family. The
+// numbers are facts of that interface, as public bindings list them (pyOpenHaptics,
+// OpenHaptics4CSharp; both MIT); the names are ours. Lengths are in millimetres.
 
 using Handle = unsigned int;
 inline constexpr Handle no_device = 0xffffffffU;
@@ -17,7 +17,7 @@ struct ErrorInfo {
     Handle handle;
 };
 
-/// Gives callback_continue to be called in the next cycle again.
+/// Returns callback_continue to be called again in the next cycle.
 using Callback = unsigned int (*)(void*);
 inline constexpr unsigned int callback_continue = 1;
 inline constexpr unsigned short priority_max = 65535;
@@ -73,7 +73,7 @@ inline constexpr int style_inkwell = 4;
 } // namespace calibration
 
 /// The functions of the library. Call those of state and force between begin_frame() and
-/// end_frame(), and all refer to the device that was made current last.
+/// end_frame(). All refer to the device that was made current last.
 struct Functions {
     /// Opens a device and makes it current; nullptr: the default device.
     Handle (*init_device)(const char* name) = nullptr;

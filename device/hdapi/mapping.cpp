@@ -14,16 +14,16 @@ namespace {
 // An Omni's data sheet.
 constexpr double omni_continuous_n = 0.88;
 constexpr double omni_resolution_m = 0.000055;
-// CHAI3D's table of devices: a Touch's figures, which are less than an Omni's 700 and 5.
+// From CHAI3D's table of devices: a Touch's figures, which are less than an Omni's 700 and 5.
 constexpr double touch_stiffness_n_per_m = 400.0;
 constexpr double touch_damping_ns_per_m = 4.0;
 
-// An axis of a workspace is between a centimetre and ten metres long: the scene's size follows from
-// it, and with that how stiff it is at the hand.
+// The permitted length of an axis of a workspace. The scene's size follows from it, and from that
+// the stiffness at the hand.
 constexpr double axis_min_mm = 10.0;
 constexpr double axis_max_mm = 10000.0;
 
-// No figure of a haptic device is as small or as large as these, in the library's units.
+// The permitted range of a device's figures, in the library's units.
 constexpr double figure_min = 1e-6;
 constexpr double figure_max = 1e6;
 

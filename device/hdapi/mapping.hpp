@@ -12,16 +12,17 @@
 
 namespace hapnet::device::hdapi {
 
-/// The fault for one of the library's error codes.
+/// Returns the fault for one of the library's error codes.
 [[nodiscard]] Fault fault_of(unsigned int code);
 
-/// The calibration step that the library's report asks for, with this style. A Touch has been seen
-/// to need an update from its start on, wherever its stylus was: only the inkwell ends that.
-/// Encoders are not reset from here: that failed.
+/// Returns the calibration step that the library's report requires, with this style. A Touch was
+/// observed to need an update from its start on, wherever its stylus was: only the inkwell ends
+/// that. This program does not reset encoders, because that failed.
 [[nodiscard]] CalibrationStep calibration_step(unsigned int status, int style);
 
 /// Returns the calibration style to use among the styles of a device: inkwell before automatic
-/// before encoder reset, as the first needs no care by the person. Without a known style: the last.
+/// before encoder reset, because the inkwell requires no care of the person. Without a known style:
+/// the last one.
 [[nodiscard]] int preferred_style(int styles);
 
 /// The abilities of a device as the library states them, in its own units.
@@ -37,16 +38,17 @@ struct Properties {
 };
 
 /// Returns the abilities in SI units. Values from data sheets of the Omni and the Touch replace
-/// those that make no sense; the peak force is then only an Omni's continuous force.
+/// implausible ones; the peak force is then only an Omni's continuous force.
 [[nodiscard]] Capabilities capabilities_of(const Properties& properties);
 
 inline constexpr std::size_t text_bytes_max = 200;
-/// A text of the library's as it may be shown and stored: "" for null, at most text_bytes_max
-/// characters, and in place of every one that is not printable ASCII a question mark.
+/// Returns a text of the library that is safe to show and store: "" for null, at most
+/// text_bytes_max characters, with a question mark in place of each character that is not printable
+/// ASCII.
 [[nodiscard]] std::string text_of(const char* text);
 
-/// An error text for a device that does not open, with what to do. `name` is as in the vendor's
-/// configuration, "" for the default one; `said` is the library's own text for `code`.
+/// Returns an error text for a device that does not open, with what to do. `name` is as in the
+/// vendor's configuration, "" for the default one; `said` is the library's own text for `code`.
 [[nodiscard]] std::string describe_error(const std::string& name, unsigned int code,
                                          const std::string& said);
 

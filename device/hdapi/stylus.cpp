@@ -31,8 +31,8 @@ void Stylus::take(const Report& report, base::TimePoint now)
     heard_ = now;
     sample_.sequence = report.cycle;
     sample_.calibrated = report.calibration == calibration::done;
-    // The switch is open while the stylus rests in the inkwell, as H3D's HAPI reads it. Others read
-    // it the other way round; then a stylus in the hand would feel nothing.
+    // The switch is open while the stylus rests in the inkwell, as in H3D's HAPI. Other programs
+    // interpret it in the opposite way; then there would be no force on a stylus in the hand.
     sample_.docked = style_ == calibration::style_inkwell && !report.inkwell_switch;
     buttons_.update(static_cast<std::uint8_t>(static_cast<unsigned int>(report.buttons) & 0xffU),
                     now);

@@ -11,17 +11,18 @@
 
 namespace hapnet::device::hdapi {
 
-/// The stylus according to the library's reports, and the faults that their absence means.
+/// Derives the state of the stylus from the library's reports, and faults from missing reports.
 class Stylus {
 public:
     /// Makes the state of a device that is calibrated in this style.
     explicit Stylus(int style) : style_{style} { sample_.calibrated = false; }
 
-    /// The stylus at `now` by the newest report there is, which may be an old one.
+    /// Returns the state of the stylus at `now` from the newest available report, which may be an
+    /// old one.
     [[nodiscard]] const Sample& read(const Report& report, base::TimePoint now);
 
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
-    /// An error of the line for this many cycles means that the device has gone.
+    /// After a communication error for this many cycles, the device counts as gone.
     static constexpr std::uint64_t gone_after_cycles = 100;
 
 private:

@@ -12,8 +12,8 @@ namespace hapnet::device::hid {
 
 namespace {
 
-// Bounds, far above those of any device: a report has no more bytes than the kernel's buffer has
-// room for, and collections and pushes nest as deep as descriptors in the wild do, and once more.
+// Limits far above those of any device: a report has no more bytes than the kernel's buffer, and
+// collections and pushes nest at most one level deeper than in existing descriptors.
 constexpr std::uint32_t report_bits_max = 8 * 4096;
 constexpr std::size_t fields_max = 2048;
 constexpr std::size_t collections_max = 16;
@@ -24,7 +24,7 @@ constexpr std::uint32_t value_bits_max = 32;
 constexpr std::uint32_t is_constant = 0x01; // bit of a main item's flags
 constexpr std::uint32_t is_variable = 0x02;
 
-/// Global items: they hold until they change.
+/// Global items, which are in effect until they change.
 struct Globals {
     std::uint16_t usage_page = 0;
     ItemValue logical_min{};
@@ -38,13 +38,13 @@ struct Globals {
     std::uint8_t report_id = 0;
 };
 
-/// A usage as an item says it: where it names no page, that of the main item holds.
+/// A usage as an item states it. If it has no page, the page of the main item applies.
 struct LocalUsage {
     std::uint32_t value = 0;
     bool has_page = false;
 };
 
-/// Local items: they hold for the next main item only.
+/// Local items, which are in effect for the next main item only.
 struct Locals {
     std::vector<std::pair<LocalUsage, LocalUsage>> usages{};
     std::optional<LocalUsage> range_from{};
@@ -56,8 +56,8 @@ Usage complete(LocalUsage usage, std::uint16_t page)
     return (static_cast<Usage>(page) << 16U) | usage.value;
 }
 
-/// Lower and upper end: the upper one is unsigned where the lower one has no sign, as the many
-/// devices mean that say 255 in one byte.
+/// Returns the lower and the upper end. The upper one is read as unsigned if the lower one is not
+/// negative, because many devices write 255 in one byte.
 std::pair<std::int64_t, std::int64_t> range(const ItemValue& low, const ItemValue& high)
 {
     const std::int64_t from = low.as_signed;
@@ -69,7 +69,7 @@ public:
     base::Result<Descriptor> parse(std::span<const std::byte> bytes);
 
 private:
-    // Each gives what is wrong with the item, or "".
+    // Each returns what is wrong with the item, or "".
     std::string on_item(const Item& item);
     std::string on_main(const Item& item);
     std::string on_global(const Item& item);
@@ -152,7 +152,7 @@ std::string Parser::on_global(const Item& item)
     case 0x2: globals_.logical_max = item.value; return "";
     case 0x3: globals_.physical_min = item.value; return "";
     case 0x4: globals_.physical_max = item.value; return "";
-    case 0x5: // a nibble with a sign; some say -3 as a byte
+    case 0x5: // a signed nibble; some devices write -3 as a byte
         globals_.unit_exponent = static_cast<int>(value & 0xfU);
         if (globals_.unit_exponent > 7) globals_.unit_exponent -= 16;
         return "";
@@ -283,7 +283,7 @@ std::string Parser::add_fields(ReportKind kind, std::uint32_t flags)
             field.usages = {{usage, usage}};
             if (usage < ranges[range_at].last) {
                 ++in_range;
-            } else if (range_at + 1 < ranges.size()) { // the last range holds for the rest
+            } else if (range_at + 1 < ranges.size()) { // the last range applies to the rest
                 ++range_at;
                 in_range = 0;
             }

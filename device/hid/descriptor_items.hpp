@@ -9,8 +9,8 @@
 
 namespace hapnet::device::hid {
 
-/// The value of an item, read as signed and as unsigned: the item's tag decides which reading
-/// holds.
+/// The value of an item, read as signed and as unsigned. The item's tag determines which of them is
+/// valid.
 struct ItemValue {
     std::int64_t as_signed = 0;
     std::int64_t as_unsigned = 0;
@@ -27,15 +27,15 @@ struct Item {
     ItemValue value{};
 };
 
-/// Cuts a report descriptor into its items: USB Device Class Definition for HID 1.11, 6.2.2.2 and
+/// Splits a report descriptor into its items: USB Device Class Definition for HID 1.11, 6.2.2.2 and
 /// 6.2.2.3.
 class ItemReader {
 public:
     explicit ItemReader(std::span<const std::byte> bytes) : bytes_{bytes} {}
 
-    /// Returns the next item; nullopt at the end, or where an item is cut off.
+    /// Returns the next item; nullopt at the end, or where an item is truncated.
     [[nodiscard]] std::optional<Item> next();
-    /// True if the last next() reached the end of the descriptor, not an item that is cut off.
+    /// True if the last next() reached the end of the descriptor, false if an item was truncated.
     [[nodiscard]] bool is_complete() const { return position_ == bytes_.size(); }
 
 private:

@@ -8,16 +8,16 @@
 
 namespace hapnet::device::hid {
 
-/// An order to the motors and the sender. It fits into 64 bits, so that one thread can leave it
-/// for another without a lock; the newest one counts.
+/// An order to the motors and the sender. It fits into 64 bits, so that one thread can pass it to
+/// another without a lock. The newest order counts.
 struct Order {
     static constexpr double level_full = 32767.0;
 
     std::array<std::int16_t, 2> levels{}; // in 1/32767 of full scale: right, away from the user
     bool motors_on = false;
-    bool is_last = false;    // also frees the effects in the device
+    bool is_last = false;    // the effects in the device are freed, too
     std::uint8_t stops = 0;  // counts the requests to stop, each of which is sent
-    std::uint8_t probes = 0; // counts the requests to check that a resting device lives
+    std::uint8_t probes = 0; // counts the requests to check that a resting device still responds
     std::uint8_t number = 0; // counts the orders with the motors on
 
     friend bool operator==(const Order&, const Order&) = default;
@@ -48,14 +48,14 @@ struct Order {
 
 /// The results of the orders so far. The counters wrap around.
 struct Progress {
-    std::uint32_t sent = 0;    // reports that the device took
-    std::uint32_t refused = 0; // reports that the device did not take
+    std::uint32_t sent = 0;    // reports that the device accepted
+    std::uint32_t refused = 0; // reports that the device did not accept
     bool is_busy = false;      // there is still something to send
     bool is_gone = false;      // the device has gone
 };
 
-/// The driver of a device leaves the newest order here, and the sender takes it. Any thread may do
-/// either, and none ever waits.
+/// Holds the newest order: the driver of a device stores it, and the sender reads it. Any thread
+/// may do either, and none ever waits.
 class Mailbox {
 public:
     [[nodiscard]] Order order() const { return unpacked_order(order_.load()); }
@@ -93,8 +93,8 @@ private:
     std::atomic<bool> is_gone_{false};
 };
 
-/// Sends the orders in its mailbox, in its own time. Its destructor sends the last order first, as
-/// far as the device takes it.
+/// Sends the orders in its mailbox, at its own pace. Its destructor sends the last order first, as
+/// far as the device accepts it.
 class ReportSender {
 public:
     ReportSender() = default;

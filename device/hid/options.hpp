@@ -8,14 +8,14 @@ namespace hapnet::device::hid {
 
 /// Options for values that no descriptor contains.
 struct Options {
-    /// Newtons at the grip when the device pushes with all it has, measured; negative where it
-    /// pushes the other way. Without it there is no force.
+    /// The measured force at the grip, in newtons, when the device pushes at full scale; negative
+    /// if it pushes in the opposite direction. Without this value there is no force.
     std::optional<double> force_full_n{};
-    /// Largest force for the hand, N, whatever the device's full scale is: a wheel base can break a
-    /// wrist. The default is the peak of a PHANToM Omni.
+    /// The largest force on the hand, N, whatever the device's full scale is: a wheel base can
+    /// break a wrist. The default is the peak of a PHANToM Omni.
     double force_cap_n = 3.3;
-    /// Half of the way between the stops of an axis, at the grip, in metres. The default is half
-    /// the width of a PHANToM Omni's workspace, so that the paper's scene fits.
+    /// Half of the distance between the stops of an axis, at the grip, in metres. The default is
+    /// half the width of a PHANToM Omni's workspace, so that the paper's scene fits.
     double reach_m = 0.08;
 };
 

@@ -14,8 +14,8 @@ namespace hapnet::device::hid {
 
 namespace {
 
-// Motors of which nothing is known: no more than half their cap for long, and as the stiffness that
-// they bear what stays calm at a delay of some milliseconds, with the free hand of a simulation.
+// Assumptions for unknown motors: a continuous force of half their cap, and a stiffness that stays
+// stable at a delay of some milliseconds with the free hand of a simulation.
 constexpr double continuous_share = 0.5;
 constexpr double stiffness_n_per_m = 400.0;
 constexpr double damping_ns_per_m = 4.0;

@@ -25,17 +25,17 @@ struct PidParts {
 };
 
 /// A joystick or wheel base with force feedback by USB HID PID, as a device of one or two degrees
-/// of freedom: its axis X is x, and Y, which grows toward the user, is -y, so that away from the
-/// user is up, as on a screen. Places are uncalibrated shares of the reach, forces uncalibrated
-/// shares of full scale.
+/// of freedom. Its axis X is x. Its axis Y, which grows toward the user, is -y, so that away from
+/// the user is up, as on a screen. Positions are uncalibrated shares of the reach, and forces are
+/// uncalibrated shares of full scale.
 ///
-/// Many such devices send nothing while nothing moves. So after 8 ms of silence a report that the
+/// Many such devices send nothing while nothing moves. So after 8 ms of silence, a report that the
 /// device accepts counts as a sign that it has not moved. Under force it gets reports in each tick;
 /// at rest it then gets a report that its actuators are disabled. A device that neither sends nor
 /// accepts reports is silent. A device that is only read may be silent.
 ///
-/// When this program is killed the device lets go by itself 100 ms later, if it keeps to the
-/// duration of its effects: nothing else stops it then but its power switch.
+/// When this program is killed, the force ends by itself 100 ms later if the device respects the
+/// duration of its effects. Otherwise only its power switch stops it.
 class PidDevice final : public Device {
 public:
     explicit PidDevice(PidParts parts);
@@ -51,7 +51,8 @@ public:
 
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
     static constexpr base::Duration probe_after{std::chrono::milliseconds{8}};
-    /// A pause between two reads counts as no more: it was the host's.
+    /// The greatest pause between two reads that counts as time of the device. The rest of a longer
+    /// pause was caused by the host.
     static constexpr base::Duration pause_max{std::chrono::milliseconds{5}};
     static constexpr int reports_per_read_max = 64; // the kernel's queue holds this many
     static constexpr double velocity_cutoff_hz = 30.0;
@@ -71,7 +72,7 @@ private:
     std::optional<base::TimePoint> read_at_;
     Progress progress_{};
     base::Duration silent_{};  // time since the device last reported, or took a report while silent
-    base::Duration unmoved_{}; // time for which waiting reports were not taken
+    base::Duration unmoved_{}; // time for which waiting reports were not accepted
     base::Duration since_probed_{};
     std::uint8_t buttons_down_ = 0;
     bool was_garbled_ = false; // the last report was garbled

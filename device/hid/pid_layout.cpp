@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t buttons_max = 8;
 
-/// True if all values of the field's logical range have room in its bits.
+/// True if all values of the field's logical range fit into its bits.
 bool has_room(const Field& field)
 {
     const std::int64_t values = std::int64_t{1} << field.bit_size;
@@ -23,7 +23,7 @@ bool has_room(const Field& field)
     return field.logical_min >= -values / 2 && field.logical_max < values / 2;
 }
 
-/// Looks for what has to be there, and remembers the first thing that is not.
+/// Looks for required fields, and remembers the first one that is missing.
 class Search {
 public:
     explicit Search(const Descriptor& descriptor) : descriptor_{descriptor} {}
@@ -48,16 +48,16 @@ public:
     {
         return required(optional(variable), name);
     }
-    /// The first field inside of another collection.
+    /// Returns the first field inside another collection.
     [[nodiscard]] Field field_inside(Usage inner, std::string_view name)
     {
         return required(
             first([&](const Field& field) { return lies_in(field, inner) && has_room(field); }),
             name);
     }
-    /// A way to say each of these.
+    /// Returns the fields that select one of these choices.
     [[nodiscard]] Selector selector(std::initializer_list<Usage> choices, std::string_view name);
-    /// The report that contains the last fields found.
+    /// Returns the report that contains the last fields found.
     [[nodiscard]] ReportPlace place() const { return place_.value_or(ReportPlace{}); }
 
     [[nodiscard]] const std::string& missing() const { return missing_; }

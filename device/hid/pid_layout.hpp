@@ -18,20 +18,20 @@ struct ReportPlace {
     std::size_t bytes = 0; // length without the ID
 };
 
-/// The report that says where the grip is.
+/// The report with the position of the grip.
 struct InputLayout {
     ReportPlace place{};
     std::vector<Field> axes{};    // X, and Y if effects can act on it
     std::vector<Field> buttons{}; // the first eight buttons
 };
 
-/// A way to say one of several things: an array's value, or a bit for each.
+/// Fields that select one of several things: the value of an array, or a bit for each.
 struct Selector {
     std::vector<Field> fields{}; // all in one report
 };
 
-/// The places in its reports at which a PID device expects the parts of a constant force: USB
-/// Device Class Definition for Physical Interface Devices 1.0. Report IDs and places differ from
+/// The positions in its reports at which a PID device expects the parts of a constant force: USB
+/// Device Class Definition for Physical Interface Devices 1.0. Report IDs and positions differ from
 /// device to device.
 struct ForceLayout {
     struct SetEffect {
@@ -79,7 +79,7 @@ struct ForceLayout {
     std::optional<BlockFree> block_free{};
 };
 
-/// Reports that a full-speed interrupt pipe takes in one go are no longer than this, ID included.
+/// The greatest length of a report that a full-speed interrupt pipe transfers at once, with its ID.
 inline constexpr std::size_t report_bytes_max = 64;
 
 /// True if the device supports usage page 0x0f: it has a Set Effect report.

@@ -11,9 +11,10 @@ namespace hapnet::device::hid {
 
 namespace {
 
-// Some devices need a moment to find the place: the kernel's own driver (hid-pidff) asks 60 times.
+// The number of requests for the block: some devices need a moment to allocate it. The kernel's own
+// driver (hid-pidff) also asks 60 times.
 constexpr int load_questions_max = 60;
-// ... but each answer that does not come takes the kernel 5 s to give up.
+// The number of missing answers: the kernel takes 5 s to give up each one.
 constexpr int silences_max = 3;
 constexpr int stops_said = 3;
 
@@ -88,7 +89,8 @@ private:
         if (moved_ == TransferResult::yes) moved_ = wire_.write(report.all());
     }
 
-    /// Cleans up until the device does not take a report, because each such report costs 5 s.
+    /// Cleans up until the device does not accept a report, because each further report would take
+    /// 5 s.
     void clean_up(const Prepared& prepared)
     {
         moved_ = TransferResult::yes;

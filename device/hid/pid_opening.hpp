@@ -11,13 +11,14 @@
 
 namespace hapnet::device::hid {
 
-/// A device that holds our effects, all without force and not playing, its actuators disabled.
+/// A device in which our effects are allocated, without force and not playing, and whose actuators
+/// are disabled.
 struct Prepared {
     std::vector<std::uint32_t> blocks{}; // one effect for each axis: x, then y
 };
 
-/// Resets the device, asks it for a constant force per axis, and sets these up. Where it fails, no
-/// effect of ours is left behind.
+/// Resets the device, requests a constant force per axis, and sets these effects up. If this fails,
+/// none of our effects stays in the device.
 [[nodiscard]] Opened<Prepared> prepare(Wire& wire, const ForceLayout& layout, std::size_t axes);
 
 } // namespace hapnet::device::hid

@@ -43,8 +43,8 @@ void pack_limited(const Field& field, std::int64_t value, std::span<std::byte> d
     pack(field, std::clamp(value, field.logical_min, field.logical_max), data);
 }
 
-/// A time in the field's own steps. Where it gives no unit of time they are milliseconds, which
-/// the devices mean that leave it out.
+/// Returns a time in the field's own steps. If the field has no unit of time, the steps are
+/// milliseconds, as devices without a unit mean.
 std::int64_t steps_of(const Field& field, base::Duration time)
 {
     const bool has_unit = field.unit == si_seconds || field.unit == english_seconds;
@@ -57,7 +57,7 @@ std::int64_t steps_of(const Field& field, base::Duration time)
     return field.logical_min + std::llround(std::clamp(share, 0.0, 1.0) * logical_range);
 }
 
-/// A share of a whole turn.
+/// Returns a share of a full turn.
 std::int64_t angle(const Field& field, double turns)
 {
     const auto range = static_cast<double>(field.logical_max - field.logical_min);

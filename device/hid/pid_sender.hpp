@@ -16,27 +16,27 @@
 
 namespace hapnet::device::hid {
 
-/// Turns orders into reports, one after the other, as fast as the device takes them. Only the
+/// Converts orders to reports, one after the other, as fast as the device accepts them. Only the
 /// newest order counts, however many were missed.
 ///
 /// Each axis has an effect of its own. A tick with the motors on costs one Set Constant Force
-/// report an axis, so two; every tenth starts the effects again, too. (A single effect with a
-/// direction would cost two as well, Set Effect and Set Constant Force, and between them the device
-/// would push the old force in the new direction.) A full-speed device takes a report every
-/// millisecond at most, and so hears of each axis 450 times a second.
+/// report for each axis, so two. Every tenth tick also starts the effects again. (A single effect
+/// with a direction would also cost two, Set Effect and Set Constant Force, and between them the
+/// device would push with the old force in the new direction.) A full-speed device accepts at most
+/// one report in a millisecond, so each axis is updated 450 times a second.
 ///
-/// To stop, it says three times over: stop all effects, disable the actuators, no force on any
-/// axis. Then it is silent, but for an order that wants to hear whether the device lives: then it
-/// says once more that the actuators are disabled.
+/// To stop, it sends the following three times: stop all effects, disable the actuators, no force
+/// on any axis. Then it sends nothing, unless an order requests a check that the device still
+/// responds: then it sends once more that the actuators are disabled.
 ///
-/// It only ever writes: a question (GET_REPORT) that a device leaves open holds the kernel up for 5
-/// s, and with it every stop behind it.
+/// It only ever writes. If a device does not answer a request (GET_REPORT), the kernel waits for 5
+/// s, and every stop has to wait, too.
 class PidSender {
 public:
-    /// `blocks`: the places of the effects, an axis each.
+    /// `blocks` are the blocks of the effects, one for each axis.
     PidSender(const ForceLayout& layout, std::span<const std::uint32_t> blocks);
 
-    /// The next report for this order; nullopt when all are sent.
+    /// Returns the next report for this order; nullopt when all are sent.
     [[nodiscard]] std::optional<Report> next(const Order& order);
 
     static constexpr int ticks_per_start = 10;
@@ -72,7 +72,8 @@ private:
     int ticks_since_start_ = 0;
 };
 
-/// Sends the next report that the newest order asks for; false when nothing is left to send.
+/// Sends the next report that the newest order requires. Returns false when nothing is left to
+/// send.
 bool send_next(Mailbox& mailbox, PidSender& sender, Wire& wire);
 
 } // namespace hapnet::device::hid

@@ -51,7 +51,7 @@ std::optional<RecognisedDevice> recognise(const HidNode& shown)
                           .name = shown.name};
     if (seen.serial.empty()) seen.serial = seen.node;
     const std::string_view spacemouse = spacemouse_name(shown.vendor, shown.product);
-    // Its receivers have other nodes, too, that act as keyboards.
+    // Its receivers also have other nodes, which act as keyboards.
     if (!spacemouse.empty() && has_collection(*descriptor, usage::multi_axis_controller)) {
         seen.is_spacemouse = true;
         seen.name = spacemouse;

@@ -15,7 +15,7 @@
 
 namespace hapnet::device::hid {
 
-/// A HID device as the system shows it.
+/// A HID device as the system presents it.
 struct HidNode {
     std::string path{}; // such as "/dev/hidraw0"
     std::uint16_t vendor = 0;

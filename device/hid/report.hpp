@@ -10,7 +10,7 @@
 
 namespace hapnet::device::hid {
 
-/// A report on its way: its ID, or 0 where reports have none, and its data.
+/// A report to be sent: its ID, or 0 where reports have none, and its data.
 struct Report {
     std::array<std::byte, report_bytes_max> bytes{};
     std::size_t size = 0; // length in bytes, with the ID

@@ -14,8 +14,8 @@
 namespace hapnet::device::hid {
 
 /// A SpaceMouse: a cap to push and pull, without motors. The displacement of the cap sets the
-/// velocity of the position, inside a box of a PHANToM Omni's workspace, from the middle of the
-/// box. Only translation counts. The left button grips.
+/// velocity of the position, which starts in the middle of a box of a PHANToM Omni's workspace and
+/// stays inside it. Only translation counts. The left button grips.
 ///
 /// The device is silent while its cap rests, so silence is no fault. A displacement that the device
 /// does not repeat within 200 ms ends, as if the cap had been let go.
@@ -33,7 +33,8 @@ public:
     static constexpr int deflection_full = 350;
     static constexpr int deflection_least = 10; // a smaller deflection means a cap at rest
     static constexpr base::Duration deflection_lasts{std::chrono::milliseconds{200}};
-    /// A pause between two reads counts as no more, or the position would jump.
+    /// The greatest pause between two reads that counts. Without this limit the position would
+    /// jump.
     static constexpr base::Duration pause_max{std::chrono::milliseconds{20}};
     static constexpr int reports_per_read_max = 64; // the kernel's queue holds this many
 
@@ -49,7 +50,7 @@ private:
     Sample sample_;
     std::optional<base::TimePoint> read_at_;
     base::TimePoint deflected_at_{};
-    glm::dvec3 speed_{0.0}; // speed that the cap asks for, m/s
+    glm::dvec3 speed_{0.0}; // speed that the cap sets, m/s
     std::uint8_t buttons_down_ = 0;
     bool is_garbled_ = false; // the last report was garbled
     bool is_gone_ = false;

@@ -29,7 +29,7 @@ std::optional<SpaceMouseReport> read_spacemouse(std::span<const std::byte> repor
     SpaceMouseReport word;
     switch (std::to_integer<unsigned>(report[0])) {
     case 1: {
-        // Wireless ones append what is none of our business.
+        // Wireless models append data that are not used here.
         if (data.size() != three_numbers && data.size() < six_numbers) return std::nullopt;
         const glm::ivec3 deflection{number_at(data, 0), number_at(data, 2), number_at(data, 4)};
         for (const int axis : {0, 1, 2}) {

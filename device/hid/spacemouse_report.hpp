@@ -11,9 +11,9 @@
 
 namespace hapnet::device::hid {
 
-/// The parts of a SpaceMouse's report that matter here, as public drivers read it (spacenavd and
-/// others): report 1 is the translation in three little-endian 16-bit numbers, or translation and
-/// rotation in six; report 2 is the rotation of those that send it apart; report 3 is a bit for
+/// The used parts of a SpaceMouse's report, as public drivers read it (spacenavd and others).
+/// Report 1 is the translation in three little-endian 16-bit numbers, or translation and rotation
+/// in six. Report 2 is the rotation, for models that send it separately. Report 3 has a bit for
 /// each button.
 struct SpaceMouseReport {
     /// About -350 to 350 along the device's axes: x right, y toward the user, z down.
@@ -21,10 +21,10 @@ struct SpaceMouseReport {
     std::optional<std::uint8_t> buttons{}; // the first eight buttons
 };
 
-/// No SpaceMouse reports more than this.
+/// The greatest value that a SpaceMouse reports.
 inline constexpr int deflection_valid_max = 1000;
 
-/// Returns nullopt for nonsense. A report of another number gives an empty one.
+/// Returns nullopt for invalid bytes. A report with another number gives an empty result.
 [[nodiscard]] std::optional<SpaceMouseReport> read_spacemouse(std::span<const std::byte> report);
 
 /// Returns the name of the SpaceMouse; "" for a USB identity that is not a SpaceMouse's.

@@ -8,7 +8,7 @@
 
 namespace hapnet::device::hid {
 
-/// The result of moving a report.
+/// The result of transferring a report.
 enum class TransferResult : std::uint8_t {
     yes,
     nothing, // no report was waiting
@@ -22,7 +22,7 @@ struct ReadResult {
     std::size_t size = 0; // bytes, with the ID where reports are numbered
 };
 
-/// Moves reports to a device and from it, and decides nothing. Used by one thread at a time.
+/// Transfers reports to and from a device, and takes no decisions. Used by one thread at a time.
 class Wire {
 public:
     Wire() = default;
@@ -30,17 +30,17 @@ public:
     Wire(const Wire&) = delete;
     Wire& operator=(const Wire&) = delete;
 
-    /// The oldest input report that waits; never waits for one. It begins with its ID only where
+    /// Reads the oldest waiting input report. Never waits for one. It begins with its ID only if
     /// the device numbers its reports.
     [[nodiscard]] virtual ReadResult read(std::span<std::byte> into) = 0;
 
-    // These always begin with an ID, 0 when reports have none, and wait as long as the system
-    // does: the kernel gives up after 5 s.
+    // In these calls a report always begins with an ID, 0 when reports have none. They wait as long
+    // as the system does: the kernel gives up after 5 s.
     [[nodiscard]] virtual TransferResult write(std::span<const std::byte> report) = 0;
     [[nodiscard]] virtual TransferResult set_feature(std::span<const std::byte> report) = 0;
-    /// Asks for the report whose ID stands first, into the same bytes. Use it only while a device
-    /// is opened: a request without an answer delays all later reports, also those that would stop
-    /// the device.
+    /// Requests the report whose ID is the first byte, and stores it in `report`. Use it only while
+    /// a device is being opened: a request without an answer delays all later reports, including
+    /// those that would stop the device.
     [[nodiscard]] virtual TransferResult get_feature(std::span<std::byte> report) = 0;
 };
 

@@ -22,7 +22,7 @@ constexpr double omni_stiffness_n_per_m = 700.0;
 glm::dvec3 from_service(const glm::dvec3& it) { return {it.x, it.z, -it.y}; }
 glm::dvec3 to_service(const glm::dvec3& it) { return {it.x, -it.z, it.y}; }
 
-/// The member of this name; null where there is none, or no object.
+/// Returns the member of this name; null if there is none, or if `object` is no object.
 const json& member(const json& object, const char* name)
 {
     static const json nothing;
@@ -149,7 +149,7 @@ polled::Report report_of(const DeviceState* device, std::uint8_t buttons)
 Capabilities capabilities()
 {
     Capabilities can;
-    // The vendor's examples put the middle at 0, -0.15, 0.19 m of its frame.
+    // The vendor's examples have the middle at 0, -0.15, 0.19 m in its frame.
     can.workspace_min = {{-0.08, 0.12, 0.08}};
     can.workspace_max = {{0.08, 0.26, 0.22}};
     can.force_max_n = omni_force_n;

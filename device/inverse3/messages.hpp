@@ -16,9 +16,10 @@
 
 namespace hapnet::device::inverse3 {
 
-// The messages of the vendor's local service, the Inverse Service, as its public reference states
-// them (docs.haply.co, WebSocket Protocol, 3.5): JSON, metres and newtons, one state for each
-// message that is sent. Its frame is right-handed: x right, y away from the user, z up.
+// The messages of the vendor's local service, the Inverse Service, as its public reference
+// describes them (docs.haply.co, WebSocket Protocol, 3.5): JSON, metres and newtons. The service
+// sends one state for each message that it receives. Its frame is right-handed: x right, y away
+// from the user, z up.
 
 /// The state of one device in a message of the service, in the device frame of device.hpp.
 struct DeviceState {
@@ -26,18 +27,18 @@ struct DeviceState {
     base::Position hip{};
     base::Velocity velocity{};
     bool calibrated = false;
-    bool ready = true;      // false: the service does not drive it (yet)
+    bool ready = true;      // false: the service does not drive the device (yet)
     bool powered = true;    // false: its motors have no supply
     bool in_use = false;    // another session uses the device
-    bool plain_axes = true; // false: the service was told to permute its axes
+    bool plain_axes = true; // false: the service is configured to permute the axes
 };
 
 /// A message of the service.
 struct ServiceState {
     std::vector<DeviceState> devices;
-    std::uint8_t buttons = 0; // of the first grip: buttons a, b, c from bit 0 on
+    std::uint8_t buttons = 0; // buttons of the first grip: a, b, c from bit 0 on
 
-    /// The device with this identity, nullptr: it is not there. "": the first one.
+    /// Returns the device with this identity; nullptr: it does not exist. "": the first device.
     [[nodiscard]] const DeviceState* find(std::string_view id) const;
 };
 
@@ -47,19 +48,19 @@ inline constexpr std::size_t id_bytes_max = 64;
 
 /// Reads a message. Unknown members are ignored. A device needs an identity of 1 to 64 printable
 /// characters without quotes, and a position and a velocity of finite numbers; otherwise the
-/// message is an error. So is one that is no JSON object, is too long, or has more than 16 devices.
-/// A state is calibrated only if it says so.
+/// message is an error. A message is also an error if it is not a JSON object, is too long, or has
+/// more than 16 devices. A state is calibrated only if it says so.
 [[nodiscard]] base::Result<ServiceState> parse_state(std::string_view text);
 
-/// The message that sends the device a force. The device answers it with a state. The force is zero
-/// where the motors are off.
+/// Returns the message that sends the device a force. The device answers it with a state. The force
+/// is zero if the motors are off.
 [[nodiscard]] std::string force_message(std::string_view id, const polled::Command& command);
 
-/// A device's state as a report. nullptr: it is not among the devices any more.
+/// Returns a device's state as a report. nullptr: the device is no longer listed.
 [[nodiscard]] polled::Report report_of(const DeviceState* device, std::uint8_t buttons);
 
-/// The assumed abilities of an Inverse3, as the service states none: peak force, continuous force
-/// and stiffness of an Omni, within a box around the middle of the arm's reach.
+/// Returns the assumed abilities of an Inverse3, as the service does not state them: peak force,
+/// continuous force and stiffness of an Omni, within a box around the middle of the arm's reach.
 [[nodiscard]] Capabilities capabilities();
 
 } // namespace hapnet::device::inverse3

@@ -9,15 +9,15 @@
 
 namespace hapnet::device::omni {
 
-/// The counts of the three joints' encoders. They count from where they were when the power came
-/// on: only the inkwell tells where that was.
+/// The counts of the three joints' encoders. They count from their position when the power was
+/// switched on. Only the inkwell shows where that was.
 using Counts = glm::ivec3;
 
 inline constexpr double radians_per_count = base::two_pi / 15000.0;
-/// The shoulder's counts the other way round.
+/// The signs of the encoders: the shoulder's counts in the opposite direction.
 inline constexpr glm::dvec3 encoder_signs{1.0, -1.0, 1.0};
 
-/// The angles, once `zero` is known: what the encoders' angle is where the joint's is nought.
+/// Returns the angles of the joints. `zero` is the encoders' angle where the joint's angle is 0.
 [[nodiscard]] inline Joints joints_at(const Counts& counts, const Joints& zero)
 {
     return {radians_per_count * encoder_signs * glm::dvec3{counts} - zero.angles};
@@ -29,7 +29,7 @@ inline constexpr glm::dvec3 encoder_signs{1.0, -1.0, 1.0};
     return {radians_per_count * encoder_signs * glm::dvec3{in_inkwell} - pose.angles};
 }
 
-/// The counts at these angles: the nearest ones.
+/// Returns the counts nearest to these angles.
 [[nodiscard]] inline Counts counts_at(const Joints& joints, const Joints& zero)
 {
     const glm::dvec3 exact = encoder_signs * (joints.angles + zero.angles) / radians_per_count;

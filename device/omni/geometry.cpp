@@ -16,7 +16,7 @@ struct Directions {
     glm::dvec3 sine;
     glm::dvec3 cosine;
 
-    /// Distance of the stylus from the waist's axis.
+    /// Returns the distance of the stylus from the waist's axis.
     [[nodiscard]] double reach() const { return link_m * (cosine.y + sine.z); }
 };
 
@@ -27,7 +27,7 @@ Directions directions_of(const Joints& joints)
             {base::cos(q.x), base::cos(q.y), base::cos(q.z)}};
 }
 
-/// A direction in a plane; (1, 0) for a zero vector.
+/// A direction in a plane. It is (1, 0) for a zero vector.
 struct Heading {
     double cosine = 1.0;
     double sine = 0.0;
@@ -41,8 +41,9 @@ struct Heading {
     }
 };
 
-/// The links make a triangle with the line from shoulder to stylus: they stand off it by the same
-/// angle h to either side, and 2 l cos h is its length.
+/// Returns the directions of the links at a position. The links form a triangle with the line from
+/// shoulder to stylus. Both links are at the same angle h to this line, on either side, and its
+/// length is 2 l cos h.
 Directions directions_at(const base::Position& position)
 {
     const Heading waist{position.z() + depth_m, -position.x()};
@@ -51,7 +52,7 @@ Directions directions_at(const base::Position& position)
     const double sine_h = std::sqrt(1.0 - cosine_h * cosine_h);
     const double sine_shoulder = line.sine * cosine_h + line.cosine * sine_h;
     const double cosine_shoulder = line.cosine * cosine_h - line.sine * sine_h;
-    // The forearm from the horizontal; from the vertical it is a quarter turn more.
+    // The angle of the forearm from the horizontal; from the vertical it is a quarter turn more.
     const double sine_forearm = line.sine * cosine_h - line.cosine * sine_h;
     const double cosine_forearm = line.cosine * cosine_h + line.sine * sine_h;
     return {{waist.sine, sine_shoulder, cosine_forearm},

@@ -11,23 +11,23 @@
 namespace hapnet::device::omni {
 
 // The PHANToM Omni's arm: a waist that turns about the vertical, an upper arm from the shoulder,
-// and a forearm that a parallelogram drives, so that both motors sit on the base and the forearm's
-// angle is absolute. Frame: x right, y up, z toward the user, metres; the origin is that of the
-// vendor's library, in the middle of the workspace. Lengths as usually published (Silva et al.
-// 2009; Sansanayuth et al. 2012), not measured.
+// and a forearm that is driven by a parallelogram, so that both motors are in the base and the
+// forearm's angle is absolute. Frame: x right, y up, z toward the user, metres. The origin is that
+// of the vendor's library, in the middle of the workspace. Lengths as usually published (Silva et
+// al. 2009; Sansanayuth et al. 2012), not measured.
 
 inline constexpr double link_m = 0.13335;   // length of each of the two links: 5.25 inches
 inline constexpr double height_m = 0.02335; // distance of the origin below the shoulder's axis
 inline constexpr double depth_m = 0.16835; // distance of the origin in front of the shoulder's axis
 
-/// Angles in radians: x the waist (positive turns the stylus to the left), y the shoulder from the
-/// horizontal, z the forearm from the vertical, which is absolute.
+/// Angles in radians. x is the waist (positive turns the stylus to the left), y the shoulder from
+/// the horizontal, z the forearm from the vertical, which is absolute.
 struct Joints {
     glm::dvec3 angles{0.0};
 };
 
-/// The range of a joint, rad: of the waist, the shoulder or the elbow, whose angle is the forearm's
-/// less the shoulder's. From a published model of the arm.
+/// The range of a joint, rad: of the waist, the shoulder or the elbow. The angle of the elbow is
+/// the forearm's minus the shoulder's. From a published model of the arm.
 struct JointRange {
     double least;
     double most;
@@ -36,12 +36,12 @@ inline constexpr JointRange waist_range{-0.98, 0.98};
 inline constexpr JointRange shoulder_range{0.0, 1.75};
 inline constexpr JointRange elbow_range{-0.81, 1.25};
 
-/// The angles with the stylus in its inkwell, as an open driver has them. The angles that the
-/// vendor's library gives there, from memory, agree to 0.04 rad.
+/// The angles with the stylus in its inkwell, according to an open driver. The angles that the
+/// vendor's library gives there agree to 0.04 rad (from memory).
 inline constexpr Joints inkwell_pose{{0.0, 0.23, -0.37}};
 
-/// The peak torque of each motor at its joint, N m: what makes 3.3 N in every direction at the
-/// origin, where the data sheet promises it. An estimate: no source says it.
+/// The peak torque of each motor at its joint, N m: the torque for 3.3 N in every direction at the
+/// origin, where the data sheet guarantees it. An estimate without a source.
 inline constexpr glm::dvec3 torque_max_nm{3.3 * depth_m, 3.3 * link_m, 3.3 * link_m};
 
 /// Figures of the data sheet.
@@ -50,24 +50,24 @@ inline constexpr double force_max_n = 3.3;         // peak, at the origin
 inline constexpr double force_continuous_n = 0.88; // bearable for 24 hours
 inline constexpr double friction_n = 0.26;         // back-drive friction at the stylus
 inline constexpr double tip_mass_kg = 0.045;       // apparent mass at the stylus
-/// The stiffness that stays stable in the hand, below the 1.02 N/mm of the mechanism (CHAI3D's
-/// table).
+/// The stiffness that stays stable in the hand. It is below the 1.02 N/mm of the mechanism
+/// (CHAI3D's table).
 inline constexpr double stiffness_max_n_per_m = 700.0;
 inline constexpr double damping_max_ns_per_m = 5.0;
 
-/// The position of the stylus.
+/// Returns the position of the stylus.
 [[nodiscard]] base::Position position_of(const Joints& joints);
 
-/// The angles that put the stylus there, with the elbow up; where that is out of reach, those of
-/// the stretched arm in its direction.
+/// Returns the angles that put the stylus at this position, with the elbow up. If the position is
+/// out of reach, they are those of the arm stretched in its direction.
 [[nodiscard]] Joints joints_of(const base::Position& position);
 
-/// d position / d angle, m/rad, a column for each joint: torques are its transpose times the force
-/// at the stylus.
+/// Returns d position / d angle, m/rad, a column for each joint. Torques are its transpose times
+/// the force at the stylus.
 [[nodiscard]] glm::dmat3 jacobian(const Joints& joints);
 
-/// The Jacobian from the position of the stylus, computed by square roots only. Finite for every
-/// finite position.
+/// Returns the Jacobian from the position of the stylus, computed with square roots only. Finite
+/// for every finite position.
 [[nodiscard]] glm::dmat3 jacobian_at(const base::Position& position);
 
 /// True if the mechanism reaches these angles, with a tolerance of `slack` radians.

@@ -10,11 +10,12 @@ namespace hapnet::device::omni {
 
 namespace {
 
-// A stylus that rests jitters by less.
+// The greatest jitter of a stylus at rest.
 constexpr int resting_counts = 3;
 // The number of lost reports after which a hand may be anywhere.
 constexpr std::uint32_t skipped_max = 100;
-// The ranges of the joints and the inkwell's pose are known to no more.
+// The tolerance of the ranges of the joints and of the inkwell's pose, which are not known more
+// precisely.
 constexpr double slack_radians = 0.15;
 
 int farthest(const Counts& a, const Counts& b)
@@ -73,8 +74,8 @@ void Tracker::follow_dock(const Report& report, base::TimePoint now)
 const Sample& Tracker::at(base::TimePoint now)
 {
     if (!heard_at_) heard_at_ = now;
-    // The last one of several reports that come together counts: they do not tell the time between
-    // them.
+    // If several reports arrive together, only the last one counts, because the time between them
+    // is not known.
     if (std::exchange(has_moved_, false)) sample_.velocity = velocity_.at(sample_.hip, now);
     sample_.calibrated = zero_.has_value();
     sample_.fault = fault_at(now);

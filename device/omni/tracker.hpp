@@ -21,36 +21,36 @@ struct Report {
     std::uint32_t skipped = 0; // number of reports lost before this one
 };
 
-/// Tracks the stylus and the faults of an Omni by its reports. Its encoders mean nothing until the
-/// stylus has rested in its inkwell for 50 ms; and nothing again after a break, or after they have
-/// jumped farther than a hand moves or to where the mechanism cannot be, until it rests there
-/// again.
+/// Tracks the stylus and the faults of an Omni by its reports. Positions are not valid until the
+/// stylus has rested in its inkwell for 50 ms. They become invalid again after a break, or after
+/// the encoders have jumped farther than a hand moves or to angles that the mechanism cannot reach,
+/// until the stylus rests in the inkwell again.
 class Tracker {
 public:
     explicit Tracker(const Joints& in_inkwell = inkwell_pose) : in_inkwell_{in_inkwell} {}
 
-    // News, with a `now` that never runs backwards.
+    // Each takes an event. `now` never runs backwards.
     void on_report(const Report& report, base::TimePoint now);
-    /// A report came that makes no sense.
+    /// Notes that an invalid report arrived.
     void on_nonsense() { heard_nonsense_ = true; }
-    /// An event after which the encoders may have restarted and the arm may have moved. Continuous
-    /// counts prove nothing then, so the calibration is lost.
+    /// Notes an event after which the encoders may have restarted and the arm may have moved.
+    /// Continuous counts prove nothing then, so the calibration is lost.
     void on_break() { lose(); }
-    /// The device has been disconnected and does not return.
+    /// Notes that the device has been disconnected and does not return.
     void on_gone() { gone_ = true; }
 
-    /// The state at `now`; the last position where no newer one is known.
+    /// Returns the state at `now`, with the last position if there is no newer one.
     [[nodiscard]] const Sample& at(base::TimePoint now);
     [[nodiscard]] CalibrationStep calibration() const;
-    /// True if forces are meaningful: the device is calibrated, out of its inkwell and without
+    /// True if forces are permitted: the device is calibrated, out of its inkwell and without
     /// fault.
     [[nodiscard]] bool may_push() const;
 
-    /// No hand moves farther than this in one report: 5 m/s at 1000 reports per second.
+    /// The greatest movement by a hand in one report: 5 m/s at 1000 reports per second.
     static constexpr int jump_max_counts = 120;
-    /// The stylus must rest in the inkwell for this long before that counts.
+    /// The time for which the stylus must rest in the inkwell before that counts.
     static constexpr base::Duration rest{std::chrono::milliseconds{50}};
-    /// Longest silence of the device that is no fault.
+    /// The longest silence of the device that is no fault.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
 
 private:

@@ -20,12 +20,13 @@ constexpr glm::dvec3 estimated_nm_per_count{omni::torque_max_nm.x / motor_max,
                                             omni::torque_max_nm.y / motor_max,
                                             omni::torque_max_nm.z / motor_max};
 constexpr double uncalibrated_share = 0.25;
-// Full scale is between 2 mN m and 4 N m then: a factor of a hundred and of ten off the estimate.
+// The permitted range. Full scale is then between 2 mN m and 4 N m, which is a factor of a hundred
+// below and of ten above the estimate.
 constexpr double least_nm_per_count = 1e-6;
 constexpr double most_nm_per_count = 2e-3;
 constexpr double inkwell_angle_max = 1.0;
 
-/// Reads the three numbers of a table, by `read(node, joint)`.
+/// Reads the three numbers of a table, with `read(node, joint)`.
 template <typename Read>
 void read_joints(const base::Node& node, base::Reading& reading, Read read)
 {

@@ -32,7 +32,7 @@ struct Profile {
     omni::Joints inkwell = omni::inkwell_pose;
 };
 
-/// Errors say FILE:LINE:COLUMN and what is possible there.
+/// Reads a profile. Errors begin with FILE:LINE:COLUMN and say what is possible there.
 [[nodiscard]] base::Result<Profile> parse_profile(std::string_view text, const std::string& source);
 
 /// The permitted use of a device's motors.
@@ -48,14 +48,14 @@ class Drive {
 public:
     Drive(Use use, const Profile& profile);
 
-    /// The motor words for a torque, N m; all are scaled down together when one is too large, so
-    /// that the direction stays. Zero for what is not finite.
+    /// Returns the motor words for a torque, N m. If one is too large, all are scaled down
+    /// together, so that the direction stays. Zero for a torque that is not finite.
     [[nodiscard]] glm::ivec3 motor_words(const glm::dvec3& torque) const;
 
     [[nodiscard]] Use use() const { return use_; }
-    /// The torque of the motors at the largest word that may be sent.
+    /// Returns the torque of the motors at the largest word that may be sent.
     [[nodiscard]] glm::dvec3 torque_max_nm() const;
-    /// The device's limits on force; the rest is the Omni's.
+    /// Sets the device's limits on force. All other abilities are those of the Omni.
     void describe(Capabilities& capabilities) const;
 
 private:

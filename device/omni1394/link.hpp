@@ -27,7 +27,7 @@ enum class Arrival : std::uint8_t {
     gone,      // the device has gone
 };
 
-/// A packet of the device, as it came.
+/// A packet of the device, as received.
 struct ReceivedPacket {
     std::array<std::byte, device_packet_bytes_max> bytes{};
     std::size_t size = 0;
@@ -39,8 +39,8 @@ struct ReceivedPacket {
     }
 };
 
-/// The way to one device over the bus. It makes no decisions; its end stops whatever it has
-/// started and gives its channels back.
+/// The connection to one device over the bus. It takes no decisions. Its destructor stops
+/// everything that it started, and releases its channels.
 class Link {
 public:
     Link() = default;
@@ -48,8 +48,7 @@ public:
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
 
-    // These calls are for the start and the end. They wait for an answer, but no longer than two
-    // seconds.
+    // These calls are for the start and the end. They wait for an answer, but at most two seconds.
 
     [[nodiscard]] virtual Opened<Channels> allocate() = 0;
     /// Reads as many bytes as there is room for.
@@ -57,21 +56,22 @@ public:
                                                             std::span<std::byte> bytes) = 0;
     [[nodiscard]] virtual Opened<std::size_t> write_register(std::uint64_t address,
                                                              std::span<const std::byte> bytes) = 0;
-    /// Begins to listen, and to be able to send.
+    /// Starts listening, and enables sending.
     [[nodiscard]] virtual Opened<Channels> start(const Channels& channels) = 0;
-    /// Waits until everything that was sent is on the wire, or can no longer be sent.
+    /// Waits until all sent packets are on the wire, or can no longer be sent.
     virtual void drain() noexcept = 0;
 
-    // These calls are for a tick: none of them waits.
+    // These calls are for a tick. None of them waits.
 
     /// Takes the oldest packet that has not been taken yet.
     [[nodiscard]] virtual Arrival receive(ReceivedPacket& packet) noexcept = 0;
-    /// Sends a command for the next millisecond; from any thread. False when it cannot be sent now
-    /// because the last ones are still under way: one that pushes may be dropped then; one at zero
-    /// is always taken.
+    /// Sends a command for the next millisecond; from any thread. Returns false if it cannot be
+    /// sent now because the previous ones are still in transit. A command with force may be dropped
+    /// then; one with zero force is always accepted.
     virtual bool send(const HostPacket& packet) noexcept = 0;
 
-    /// Waits until something comes, and not longer than `most`. Returns true if something has come.
+    /// Waits until something arrives, and not longer than `most`. Returns true if something has
+    /// arrived.
     [[nodiscard]] virtual bool wait(base::Duration most) noexcept = 0;
 };
 

@@ -18,13 +18,13 @@ namespace hapnet::device::omni1394 {
 namespace {
 
 constexpr int last_words = 3;
-// No source says if the device sends 1000 packets a second or one in each of the bus's 8000 cycles.
-// A beat therefore comes no sooner than this number of cycles after the last, and only with a
-// packet.
+// The least number of cycles between two beats. A beat comes only with a packet. No source says if
+// the device sends 1000 packets a second or one in each of the bus's 8000 cycles.
 constexpr unsigned beat_cycles = 6;
 constexpr unsigned cycles_per_second = 8000;
 constexpr std::size_t news_per_beat_max = 16;
-// More than two seconds of packets: it has started to count from the beginning.
+// The number of packets in two seconds. A greater gap means that the device has started to count
+// from the beginning.
 constexpr std::uint32_t skipped_max = 2 * cycles_per_second;
 
 std::string_view describe(Use use)
@@ -80,7 +80,8 @@ Opened<std::unique_ptr<Device>> Omni::open(std::unique_ptr<Link> link, const Pro
 {
     const auto channels = link->allocate();
     if (!channels) return tl::unexpected{channels.error()};
-    // Both ways are open before the device is asked to speak, and the first that it hears is zero.
+    // Both directions are open before the device starts to send, and the first command that it
+    // receives is zero.
     const auto started = link->start(*channels);
     if (!started) return tl::unexpected{started.error()};
     link->send(HostPacket{});
@@ -110,7 +111,8 @@ Omni::~Omni()
         const RegisterAccess stop = stop_streaming();
         std::ignore = link_->write_register(stop.address, stop.to_write());
     } catch (const std::exception&) {
-        // The link's own end stops what is left: its descriptors close, and the kernel ends it.
+        // The link's destructor stops the rest: it closes its descriptors, and the kernel ends the
+        // stream.
         return;
     }
 }
@@ -172,7 +174,8 @@ void Omni::take(const ReceivedPacket& received, base::TimePoint now)
     tracker_.on_report({packet->counts, packet->docked, packet->buttons, skipped}, now);
 }
 
-/// Fast flashes ask for the stylus; a steady light says that all is well.
+/// Returns the lights. Fast flashes request the stylus in its inkwell; a steady light means that
+/// all is well.
 HostPacket Omni::lights() const
 {
     HostPacket packet;

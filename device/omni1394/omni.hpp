@@ -17,9 +17,10 @@
 namespace hapnet::device::omni1394 {
 
 /// The PHANToM Omni with FireWire; written from descriptions, never run on the physical device.
-/// Without a measured table of torques it sends no force, except, where that is asked for, a
-/// quarter of what the motors may be told. It is unknown whether the device has a watchdog. Its
-/// reaction when this program is killed is therefore unknown, too; no more packets come then.
+/// Without a measured table of torques it sends no force, unless uncalibrated force is requested:
+/// then it sends at most a quarter of the motors' full range. It is unknown whether the device has
+/// a watchdog. Its reaction when this program is killed is therefore unknown, too; it gets no more
+/// packets then.
 class Omni final : public Device {
 public:
     /// Runs the start sequence. Returns the device once it has started, or the reason why it has
@@ -38,9 +39,9 @@ public:
     void halt() noexcept override;
     void pace(const std::function<bool()>& beat) override;
 
-    /// Lost messages, by the device's own count.
+    /// Returns the number of lost messages, by the device's own count.
     [[nodiscard]] std::uint64_t lost() const { return lost_; }
-    /// Messages that made no sense.
+    /// Returns the number of invalid messages.
     [[nodiscard]] std::uint64_t garbled() const { return garbled_; }
 
 private:
@@ -50,7 +51,7 @@ private:
     };
     Omni(Started started, const Profile& profile, Use use);
 
-    /// Takes what has come. Returns true if that makes a beat.
+    /// Takes the packets that have arrived. Returns true if a beat is due.
     [[nodiscard]] bool gather();
     void take(const ReceivedPacket& received, base::TimePoint now);
     [[nodiscard]] HostPacket lights() const;

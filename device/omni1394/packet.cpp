@@ -22,7 +22,7 @@ constexpr std::uint16_t known_bits = flash_bit | fast_flash_bit | motors_on_bit;
 constexpr std::uint32_t device_header = 0x001e0000;
 constexpr std::uint8_t button_bits = 0x03; // 0: down
 constexpr std::uint8_t undocked_bit = 0x04;
-// Words of unknown meaning, with the values that were seen.
+// Words of unknown meaning, with the values that were observed.
 constexpr std::uint16_t seen_at_20 = 0x1007;
 constexpr std::uint16_t seen_at_28 = 0x5746;
 

@@ -30,9 +30,9 @@ inline constexpr std::size_t host_packet_bytes = 16;
 inline constexpr int motor_max = 2047;
 using HostBytes = std::array<std::byte, host_packet_bytes>;
 
-/// Motors beyond their range are clamped.
+/// Encodes a packet. Motor values beyond their range are clamped.
 [[nodiscard]] HostBytes encode(const HostPacket& packet);
-/// Returns nullopt for bytes that encode() never gives.
+/// Decodes a packet. Returns nullopt for bytes that encode() never returns.
 [[nodiscard]] std::optional<HostPacket> decode_host(std::span<const std::byte> bytes);
 
 /// A packet from the device.

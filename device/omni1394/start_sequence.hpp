@@ -27,24 +27,25 @@ struct RegisterAccess {
     }
 };
 
-/// The dialogue that makes an Omni stream, step by step: its identity, the channels, and go. It
-/// does no I/O: carry out the access that next() returns, and pass the answer to on_answer().
+/// The dialogue that makes an Omni stream, step by step: reading its identity, setting the
+/// channels, and starting the stream. It does no I/O: carry out the access that next() returns, and
+/// pass the answer to on_answer().
 class StartSequence {
 public:
     StartSequence(const Channels& channels, bool writes_dubious_register)
         : channels_{channels}, writes_dubious_register_{writes_dubious_register}
     {}
 
-    /// Returns the next access; nullopt: the sequence is over, with success or not.
+    /// Returns the next access; nullopt: the sequence is over, whether it succeeded or not.
     [[nodiscard]] std::optional<RegisterAccess> next() const;
     /// Takes the answer to the access that next() returned: the bytes that were read, or none after
     /// a write.
     void on_answer(std::span<const std::byte> bytes);
 
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
-    /// The reason for its failure; "" while there is none.
+    /// Returns the reason for its failure; "" while there is none.
     [[nodiscard]] const std::string& failure() const { return failure_; }
-    /// The serial number that is printed on the device; "" until it is known.
+    /// Returns the serial number that is printed on the device; "" until it is known.
     [[nodiscard]] const std::string& serial() const { return serial_; }
 
 private:
@@ -71,7 +72,7 @@ private:
     std::string failure_;
 };
 
-/// The access that ends the streaming; the last one to the device.
+/// Returns the access that ends the streaming, the last one to the device.
 [[nodiscard]] RegisterAccess stop_streaming();
 
 } // namespace hapnet::device::omni1394

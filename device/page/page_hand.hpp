@@ -21,27 +21,30 @@ struct HandWish {
     friend bool operator==(const HandWish&, const HandWish&) = default;
 };
 
-/// Carries wishes to the haptic loop; nullopt: the person lets the hand go.
+/// Carries wishes to the haptic loop; nullopt: the person releases the hand.
 using HandWishes = TripleBuffer<std::optional<HandWish>>;
 
-/// Largest absolute coordinate that a page may ask for, m. The live page keeps to the same limit.
+/// The largest absolute coordinate that a page may request, m. The live page applies the same
+/// limit.
 inline constexpr double page_reach_m = 0.25;
 
-/// The place that a page asks for. An error for a coordinate that is no number or out of reach.
+/// Returns the position that a page requests. Returns an error for a coordinate that is not a
+/// number or out of reach.
 [[nodiscard]] base::Result<base::Position> parse_page_place(double x, double y, double z);
 
-/// A simulated hand that a person moves on a page: it goes where it is told. The person who moves
-/// it sees the force and does not feel it. Wishes come a few times in a tenth of a second; in
-/// between the hand goes evenly, at most as fast as speed_max_m_per_s. Times are those of the loop:
-/// a wish counts from the tick that takes it. The hand is let go, as a stylus in its holder, before
-/// a session has a start, when the person lets it go, and when nothing has come for lets_go_after.
+/// A simulated hand that a person moves on a page. It moves to the requested position. The person
+/// sees the force and does not feel it. Wishes arrive a few times in a tenth of a second. Between
+/// wishes the hand moves at constant speed, at most speed_max_m_per_s. Times are those of the loop:
+/// a wish counts from the tick that takes it. The hand is released, like a stylus in its holder,
+/// before a session has a start, when the person releases it, and when no wish has arrived for
+/// lets_go_after.
 class PageHand final : public Device {
 public:
     static constexpr base::Duration lets_go_after{std::chrono::milliseconds{250}};
     static constexpr double speed_max_m_per_s = 1.0;
-    /// Longest time that the hand takes from one place to the next.
+    /// The longest time that the hand takes from one position to the next.
     static constexpr base::Duration goes_for_max{std::chrono::milliseconds{50}};
-    /// A loop that stood still for longer moves the hand no farther than in this time.
+    /// The greatest time step by which the hand moves, even after a longer stall of the loop.
     static constexpr base::Duration step_max{std::chrono::milliseconds{20}};
     /// Position of the hand until a person moves it, m: left of the paper's cube.
     static constexpr glm::dvec3 rest_m{-0.06, 0.0, 0.0};
@@ -51,7 +54,7 @@ public:
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] Sample read(base::TimePoint now) override;
-    void apply(const GovernedForce& /*force*/) override {} // drawn by the page, not felt
+    void apply(const GovernedForce& /*force*/) override {} // the page draws it; nobody feels it
     void halt() noexcept override {}                       // it has no motors
     void on_cue(const Cue& /*cue*/) override { has_start_ = true; }
 
@@ -67,8 +70,9 @@ private:
     base::Position hip_{rest_m};
     base::Position goal_{rest_m};
     bool grips_ = false;
-    base::TimePoint arrives_{};            // time of arrival at the goal, unless it is too far
-    std::optional<base::TimePoint> heard_; // time of the newest wish; nullopt: the hand is let go
+    // Time of arrival at the goal, unless the goal is too far
+    base::TimePoint arrives_{};
+    std::optional<base::TimePoint> heard_; // time of the newest wish; nullopt: the hand is released
     std::optional<base::TimePoint> last_;  // time of the last read()
 };
 

@@ -28,7 +28,7 @@ struct Report {
     Fault fault = Fault::none;
 };
 
-/// One question to the device and its answer, over whatever leads to it.
+/// One request to the device and its answer, over any kind of connection.
 class Exchange {
 public:
     Exchange() = default;
@@ -37,7 +37,7 @@ public:
     Exchange& operator=(const Exchange&) = delete;
 
     /// Sends the device the force, then reads its report. The caller counts the cycles. nullopt:
-    /// the device did not answer in time. May wait, and may throw nothing.
+    /// the device did not answer in time. May wait. Must not throw.
     [[nodiscard]] virtual std::optional<Report> tell(const Command& command) = 0;
 };
 

@@ -19,14 +19,14 @@ public:
     /// has changed since the last call.
     [[nodiscard]] Command pass(const Command& newest, bool is_new, base::TimePoint now);
     /// Returns the answer to the command that was sent last, with its fault or that of an answer in
-    /// the last 20 ms. Code that reads less often than the device is asked then misses no fault.
+    /// the last 20 ms. So code that reads less often than the device is asked misses no fault.
     [[nodiscard]] std::optional<Report> heard(std::optional<Report> report, base::TimePoint now);
 
     static constexpr base::Duration fresh_for{std::chrono::milliseconds{20}};
     static constexpr base::Duration fault_held_for{std::chrono::milliseconds{20}};
 
 private:
-    std::optional<base::TimePoint> given_; // time at which the newest command came
+    std::optional<base::TimePoint> given_; // time at which the newest command arrived
     bool is_trusted_ = false;              // the last answer was calibrated and had no fault
     Fault fault_ = Fault::none;            // the latest fault in an answer
     base::TimePoint fault_at_{};

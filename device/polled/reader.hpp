@@ -11,16 +11,16 @@
 
 namespace hapnet::device::polled {
 
-/// The grip according to the device's answers, and the fault that their absence means.
+/// Derives the state of the grip from the device's answers, and faults from missing answers.
 class Reader {
 public:
     Reader() { sample_.calibrated = false; }
 
-    /// The grip at `now` by the newest answer there is, which may be an old one. Positions and
-    /// velocities that are not finite are a fault, and the last ones stay.
+    /// Returns the state of the grip at `now` from the newest available answer, which may be an old
+    /// one. Positions and velocities that are not finite are a fault, and the last valid ones stay.
     [[nodiscard]] const Sample& read(const Report& report, base::TimePoint now);
 
-    /// An older answer than this is a timeout.
+    /// The greatest age of an answer. An older one is a timeout.
     static constexpr base::Duration silence_max{std::chrono::milliseconds{20}};
 
 private:

@@ -16,7 +16,7 @@ Capabilities GivenHand::capabilities()
     const glm::dvec3 reach{hand_reach_max_m};
     capabilities.workspace_min = {-reach};
     capabilities.workspace_max = {reach};
-    // It takes any force, and gives way to none: so that its session has forces to record.
+    // The hand accepts any force, and does not yield, so that its session has forces to record.
     capabilities.force_max_n = peak_n;
     capabilities.force_continuous_n = peak_n;
     return capabilities;

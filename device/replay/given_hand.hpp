@@ -10,17 +10,19 @@
 
 namespace hapnet::device {
 
-/// A hand whose places are given from outside, whatever force it feels: recorded or of a page. Both
-/// report the same sample for the same place, so that a recording repeats a session to the bit.
+/// A hand whose positions are given from outside, by a recording or a page, and do not depend on
+/// the force. Both report the same sample for the same position, so that a recording repeats a
+/// session to the bit.
 class GivenHand {
 public:
     static constexpr double velocity_cutoff_hertz = 30.0;
 
-    /// Capabilities of such a hand: it takes any force of an Omni, and gives way to none.
+    /// Returns the capabilities of such a hand: it accepts any force of an Omni, and does not yield
+    /// to it.
     [[nodiscard]] static Capabilities capabilities();
 
-    /// The report on the hand at `moment`. Its velocity is that of a device: the differences of
-    /// the places, low-passed at 30 Hz.
+    /// Returns the sample for the hand at `moment`. Its velocity is like that of a device: the
+    /// differences of the positions, low-passed at 30 Hz.
     [[nodiscard]] Sample sample(const HandMoment& moment, base::TimePoint now);
 
 private:

@@ -13,7 +13,8 @@ namespace hapnet::device {
 
 namespace {
 
-/// Takes what stands before the next `separator`, or all; the separator is dropped.
+/// Removes and returns the text before the next `separator`, or all of it. The separator is
+/// removed, too.
 std::string_view take_until(std::string_view& text, char separator)
 {
     const auto end = std::min(text.find(separator), text.size());
@@ -22,7 +23,7 @@ std::string_view take_until(std::string_view& text, char separator)
     return taken;
 }
 
-/// A line without its end, which may be that of another system.
+/// Removes and returns a line without its end, which may be that of another system.
 std::string_view take_line(std::string_view& text)
 {
     auto line = take_until(text, '\n');
@@ -38,7 +39,7 @@ std::optional<double> number_in(std::string_view cell)
     return is_all && std::isfinite(value) ? std::optional{value} : std::nullopt;
 }
 
-/// The cells of a line that hold each value, in the units of the columns' names.
+/// The indices of the cells of a line that have each value, and the units of the columns' names.
 struct Columns {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t count = 0;
@@ -82,7 +83,7 @@ std::optional<Columns> columns_of(std::string_view header)
     return std::nullopt;
 }
 
-/// One line of numbers; the error says what was expected.
+/// Reads one line of numbers. The error says what was expected.
 base::Result<HandMoment> moment_in(std::string_view line, const Columns& columns)
 {
     std::size_t cells = 0;

@@ -22,24 +22,25 @@ struct HandMoment {
     friend bool operator==(const HandMoment&, const HandMoment&) = default;
 };
 
-/// A hand's way, recorded: at least one moment, in the order of time.
+/// The recorded path of a hand: at least one moment, in the order of time.
 using HandTrace = std::vector<HandMoment>;
 
-/// The hand at a time: between two moments evenly from one to the next; before the first, and after
-/// the last, there without a grip. A docked stylus stays docked.
+/// Returns the hand at a time. Between two moments the position is interpolated linearly. Before
+/// the first and after the last moment, the hand is at that moment's position and does not grip. A
+/// docked stylus stays docked.
 [[nodiscard]] HandMoment moment_at(const HandTrace& trace, double seconds);
 
 inline constexpr std::size_t hand_moments_max = 4'000'000;
 inline constexpr double hand_reach_max_m = 10.0;
 
-/// Reads CSV. The first line names the columns: time_s, and x_m, y_m and z_m, or hip_x_mm,
-/// hip_y_mm and hip_z_mm, as `hapnet-lab export` writes them; gripping and docked (0 or 1) may be
-/// there; others are passed over. Times grow from line to line. The error is FILE:LINE and what was
-/// expected, the file being called `source`.
+/// Reads CSV. The first line names the columns: time_s, and x_m, y_m and z_m, or hip_x_mm, hip_y_mm
+/// and hip_z_mm, as `hapnet-lab export` writes them. Columns gripping and docked (0 or 1) are
+/// optional, and other columns are ignored. Times grow from line to line. The error has the form
+/// FILE:LINE, with `source` as FILE, and says what was expected.
 [[nodiscard]] base::Result<HandTrace> parse_hand_trace(std::string_view text,
                                                        const std::string& source);
 
-/// The way as CSV that parse_hand_trace() reads back to the same bits.
+/// Returns the path as CSV. parse_hand_trace() restores it to the bit.
 [[nodiscard]] std::string print_hand_trace(const HandTrace& trace);
 
 } // namespace hapnet::device

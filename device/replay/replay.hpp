@@ -14,12 +14,13 @@ namespace hapnet::device {
 /// The behaviour of a hand after the last moment of its trace.
 enum class AfterTheEnd : std::uint8_t {
     stays,        // the hand stays at the last place and lets go
-    begins_again, // from the start, with a jump unless the trace ends where it began
+    begins_again, // the trace repeats, with a jump unless it ends where it began
 };
 
-/// A hand that follows a recorded path, whatever force it is given: evenly from one recorded moment
-/// to the next. The trace's time counts from the session's start; before its first moment the hand
-/// waits there. The velocity is that of a device: the path's differences, low-passed at 30 Hz.
+/// A hand that follows a recorded path, whatever the force is. Between recorded moments it moves at
+/// constant speed. The trace's time counts from the session's start; before its first moment the
+/// hand waits at that position. The velocity is like that of a device: the path's differences,
+/// low-passed at 30 Hz.
 class Replay final : public Device {
 public:
     /// `trace` has at least one moment, in the order of time. `source` is for the description.

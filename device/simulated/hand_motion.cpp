@@ -12,8 +12,8 @@ namespace hapnet::device {
 
 namespace {
 
-/// exp(-decay) times cos(sqrt(z)) and sin(sqrt(z)) / sqrt(z), z = spring - decay^2; for z < 0 their
-/// hyperbolic continuations, without overflow and without a difference of large numbers.
+/// exp(-decay) times cos(sqrt(z)) and sin(sqrt(z)) / sqrt(z), z = spring - decay^2. For z < 0 they
+/// are the hyperbolic continuations, without overflow and without a difference of large numbers.
 struct Swing {
     double even = 1.0;
     double odd = 1.0;
@@ -112,8 +112,8 @@ void HandMotion::advance(HandAxis& axis, const HandDrive& drive) const
 
 double HandMotion::rest_between(double velocity, double velocity_at_end, const Pull& pull) const
 {
-    // The velocity is almost straight over a step: false positions, and where it is not, the end
-    // that stays counts half (Dowell, Jarratt 1971).
+    // The velocity is almost linear over a step, so this is the method of false position. Where the
+    // velocity is not linear, the end that stays counts half (Dowell, Jarratt 1971).
     constexpr int rounds_max = 8;
     const double enough = 1e-9 * std::abs(velocity);
     double low = 0.0;
@@ -148,7 +148,7 @@ void HandMotion::start(HandAxis& axis, const HandDrive& drive, double passed) co
              {pull - direction * friction_, jerk});
         if (axis.velocity_m_per_s * direction < 0.0) axis.velocity_m_per_s = 0.0;
     } else if (std::abs(at_end) > friction_) {
-        // The target draws away until the pull is as strong as the friction.
+        // The target moves away until the pull is as strong as the friction.
         const double holds = (std::copysign(friction_, at_end) - pull) / jerk;
         move(axis, response_after(left - holds), {0.0, jerk});
     }

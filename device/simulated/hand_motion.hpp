@@ -12,16 +12,17 @@ struct HandAxis {
     double velocity_m_per_s = 0.0;
 };
 
-/// The inputs of an axis during a step: a constant force, and a target that moves evenly.
+/// The inputs of an axis during a step: a constant force, and a target that moves at constant
+/// speed.
 struct HandDrive {
     double force_n = 0.0;
     double target_m = 0.0; // target at the start of the step
     double target_velocity_m_per_s = 0.0;
 };
 
-/// The response of a mass on a damped spring after a time: x' and x from the initial velocity, from
-/// the initial acceleration by spring and forces, and from the constant growth of that
-/// acceleration. Exact for damping below, at and above the critical damping.
+/// The response of a mass on a damped spring after a time: the contributions to x' and x of the
+/// initial velocity, of the initial acceleration by spring and forces, and of the constant growth
+/// of that acceleration. Exact for damping below, at and above the critical damping.
 struct HandResponse {
     double position_by_velocity = 0.0;     // s
     double velocity_by_velocity = 1.0;     // no unit
@@ -30,12 +31,13 @@ struct HandResponse {
 };
 
 /// The hand's motion along one axis, m x'' + b x' + k (x - target) = force + friction, in closed
-/// form over a step. Coulomb friction keeps its sign until the motion ends; then it sticks while
-/// the pull is weaker (Karnopp 1985), and else the motion goes on the other way within the step.
-/// One end of a motion in a step is followed: steps are to be short against the hand's own periods.
+/// form over a step. Coulomb friction keeps its sign until the motion ends. Then the hand sticks
+/// while the pull is weaker than the friction (Karnopp 1985); otherwise it moves in the other
+/// direction within the same step. At most one end of a motion in a step is computed, so steps must
+/// be short compared with the hand's own periods.
 class HandMotion {
 public:
-    /// Mass and stiffness above 0, damping and friction not below.
+    /// Mass and stiffness must be above 0; damping and friction must not be negative.
     HandMotion(const HandImpedance& hand, double friction_n);
 
     /// Sets the length of the steps from now on. Costs an exponential and two sines, or nothing
@@ -55,8 +57,8 @@ private:
     static void move(HandAxis& axis, const HandResponse& response, const Pull& pull);
 
     [[nodiscard]] HandResponse response_after(double seconds) const;
-    /// Returns the time in a step at which a motion ends whose velocity has changed its sign at the
-    /// step's end.
+    /// Returns the time in a step at which a motion ends whose velocity has the opposite sign at
+    /// the step's end.
     [[nodiscard]] double rest_between(double velocity, double velocity_at_end,
                                       const Pull& pull) const;
     /// Starts the motion from rest, after a part of the step has passed.

@@ -11,14 +11,15 @@
 
 namespace hapnet::device {
 
-/// The involuntary part of a hand: wander and tremor along x, and an error of its force. Sums of
-/// sines whose frequencies and phases come from the seed, so that it is a pure function of time.
+/// The involuntary part of a hand: wander and tremor along x, and an error of its force. They are
+/// sums of sines whose frequencies and phases come from the seed, so that they are pure functions
+/// of time.
 class HandNoise {
 public:
     HandNoise(base::Seed seed, std::uint16_t peer_id, const Operator& person);
 
     struct Value {
-        double away_m = 0.0;      // distance from where the hand wants to be
+        double away_m = 0.0;      // distance from the intended position
         double force_share = 0.0; // error of the force, as a share of it
     };
     /// Returns the value at `seconds` after the start.

@@ -6,8 +6,8 @@
 
 namespace hapnet::device {
 
-/// The progress of a minimum-jerk movement, 0 to 1, when the share u of its time has passed
-/// (Flash and Hogan 1985); u outside 0 to 1 is clamped.
+/// Returns the progress of a minimum-jerk movement, 0 to 1, when the share u of its time has passed
+/// (Flash and Hogan 1985). u outside 0 to 1 is clamped.
 [[nodiscard]] constexpr double minimum_jerk(double u)
 {
     const double t = std::clamp(u, 0.0, 1.0);

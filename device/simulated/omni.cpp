@@ -9,7 +9,8 @@ namespace hapnet::device {
 
 namespace {
 
-// Each hand's workspace is centred where its side of the path is, so that all of it is in reach.
+// The offset of each hand's workspace toward its side of the path, so that the whole path is in
+// reach.
 constexpr double workspace_offset_m = 0.025;
 
 } // namespace
@@ -28,7 +29,7 @@ SimulatedOmni::SimulatedOmni(const Performer& performer)
                                      performer.person.name, hand.mass_kg, hand.damping_ns_per_m,
                                      hand.stiffness_n_per_m)};
     const OmniPlant& plant = performer.plant;
-    // Wherever its cue may place it, and the last count.
+    // The reach includes the workspace for every offset that its cue may set, and the last count.
     const glm::dvec3 reach =
         plant.half_workspace_m + plant.resolution_m + glm::dvec3{workspace_offset_m, 0.0, 0.0};
     capabilities_ = {.workspace_min = {-reach},
@@ -85,8 +86,8 @@ void SimulatedOmni::advance(const Person::Aim& aim, base::TimePoint now)
 void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,
                           base::Duration elapsed)
 {
-    // The intention moves evenly from what it was. The time before a late read is simulated in
-    // short steps.
+    // The intention moves linearly from its previous value. The time before a late read is
+    // simulated in short steps.
     const auto steps = (elapsed + step_max - base::Duration{1}) / step_max;
     const double share = 1.0 / static_cast<double>(steps);
     const double seconds = share * base::to_seconds(elapsed);

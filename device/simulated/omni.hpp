@@ -14,7 +14,7 @@
 
 namespace hapnet::device {
 
-/// A PHANToM Omni in the air, per Cartesian axis: figures of its data sheet.
+/// The figures of a PHANToM Omni's data sheet, per Cartesian axis.
 struct OmniPlant {
     double force_max_n = 3.3;
     double force_continuous_n = 0.88;
@@ -33,8 +33,8 @@ struct Performer {
     std::shared_ptr<const HandTrace> way{}; // path that the person follows instead of the task's
 };
 
-/// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being:
-/// a linear hand with scripted intentions.
+/// A simulated Omni held by a simulated hand that plays its part of a task. Not a human being: a
+/// linear hand with scripted intentions.
 class SimulatedOmni final : public Device {
 public:
     explicit SimulatedOmni(const Performer& performer);
@@ -47,7 +47,8 @@ public:
     void on_cue(const Cue& cue) override;
     void on_fault(bool is_latched) override { person_.on_fault(is_latched); }
 
-    /// read() goes on in one exact step, unless it comes later than this after the last.
+    /// The greatest step that read() simulates at once. A longer time since the last read() is
+    /// divided into steps.
     static constexpr base::Duration step_max{std::chrono::milliseconds{2}};
     /// The longest time between two reads that is simulated. A longer one is skipped.
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};

@@ -19,8 +19,8 @@
 namespace hapnet::device {
 
 /// A hand on a stylus as a linear impedance: m h'' + b h' + k (h - intention) = force. The mass
-/// contains the device's apparent 45 g. Nominal values for a relaxed pen grip; measured arms:
-/// 0.554 kg, 6.45 N s/m, 135 N/m (Scientific Reports 6:18004). Damping and stiffness rise with
+/// contains the device's apparent 45 g. Nominal values are for a relaxed pen grip; measured arms
+/// have 0.554 kg, 6.45 N s/m, 135 N/m (Scientific Reports 6:18004). Damping and stiffness rise with
 /// the grip (Hasser, Cutkosky 2002).
 struct HandImpedance {
     double mass_kg = 0.20;
@@ -31,7 +31,8 @@ struct HandImpedance {
 };
 constexpr auto fields_of(base::Tag<HandImpedance> /*struct*/)
 {
-    // Wider than hands are; within these a step of 2 ms is short against a hand's motion.
+    // These ranges are wider than those of hands. Within them a step of 2 ms is short compared with
+    // a hand's motion.
     return base::fields(
         "hand",
         base::field("mass", &HandImpedance::mass_kg, base::Quantity{base::mass_kind, 0.02, 10.0},
@@ -63,8 +64,9 @@ constexpr auto fields_of(base::Tag<InvoluntaryMotion> /*struct*/)
         base::field("to", &InvoluntaryMotion::most_hertz, frequency, "highest frequency"));
 }
 
-/// The stretch reflex: the hand answers where it was, `delay` ago, off its intention, with `gain`
-/// times its own stiffness. Spinal and long-loop reflexes take 30 to 60 ms (general knowledge).
+/// The stretch reflex: the hand responds to its deviation from its intention a time `delay` ago,
+/// with `gain` times its own stiffness. Spinal and long-loop reflexes take 30 to 60 ms (general
+/// knowledge).
 struct Reflex {
     double gain = 0.0; // 0: no reflex
     base::Duration delay{std::chrono::milliseconds{50}};
@@ -81,11 +83,11 @@ constexpr auto fields_of(base::Tag<Reflex> /*struct*/)
                                     "from the stretch to the reaction"));
 }
 
-/// The intent: where a task asks for a force, the intention moves on for as long as force is
-/// missing, by `gain` per second and newton, at most 20 mm; what is missing is what was felt
-/// `delay` ago, smoothed by a first-order low-pass. Reactions to what is felt take about 150 ms, to
-/// what is seen 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force
-/// comes back with a time constant of 0.7 s.
+/// The intent. If a task requires a force, the intention moves further while force is missing, by
+/// `gain` per second and newton, at most 20 mm. The missing force is computed from the force felt
+/// `delay` ago, smoothed by a first-order low-pass. Reactions to touch take about 150 ms, and to
+/// sight 200 ms (general knowledge). With the 143 N/m of a nominal hand's contact the force
+/// recovers with a time constant of 0.7 s.
 struct Intent {
     double gain_m_per_ns = 0.010; // 0: no reaction
     double cutoff_hertz = 1.5;
@@ -107,11 +109,11 @@ constexpr auto fields_of(base::Tag<Intent> /*struct*/)
                                     "from the force to the reaction"));
 }
 
-/// The way in which a hand looks for a body that it means to touch and does not feel. After the
-/// time `after` without a force, its intention moves toward the body at `speed`, at most `reach`
-/// beyond the task's aim. It stops at the first touch, without a reaction time, and stays there
-/// until the task's aim has come as far. Where the task does not mean to touch, the intention goes
-/// back. T1, T2, T3 and T7; chosen, not measured.
+/// The search of a hand for a body that it intends to touch and does not feel. After the time
+/// `after` without a force, its intention moves toward the body at `speed`, at most `reach` beyond
+/// the task's aim. It stops at the first touch, without a reaction time, and stays there until the
+/// task's aim has come as far. When the task does not intend a touch, the intention goes back. T1,
+/// T2, T3 and T7; chosen, not measured.
 struct Search {
     double speed_m_per_s = 0.0; // 0: the hand does not search
     base::Duration after{std::chrono::milliseconds{400}};
@@ -163,30 +165,30 @@ constexpr auto fields_of(base::Tag<Operator> /*struct*/)
                     "looks for a body that is not where it should be"));
 }
 
-/// The presets: three grips with wander, tremor and intent; and the nominal grip with more of them,
-/// force noise and a stretch reflex.
+/// The names of the presets: three grips with wander, tremor and intent, and the nominal grip with
+/// more of them, force noise and a stretch reflex.
 inline constexpr auto operator_names = base::names("relaxed", "nominal", "firm", "lifelike");
 [[nodiscard]] base::Result<Operator> operator_named(std::string_view name);
 
-/// A preset's name, or a table with `preset = "nominal"` and what differs from it; nullopt when a
-/// complaint was made.
+/// Reads a preset's name, or a table with `preset = "nominal"` and the differing parameters;
+/// nullopt when an error was reported.
 [[nodiscard]] std::optional<Operator> read_operator(const base::Node& node, base::Reading& reading);
 
-/// Reads a whole text with the keys of that table. `source` names it in errors, which begin with
-/// "SOURCE:LINE:COLUMN: ".
+/// Reads a text that consists of the keys of that table. `source` names it in errors, which begin
+/// with "SOURCE:LINE:COLUMN: ".
 [[nodiscard]] base::Result<Operator> parse_operator(std::string_view text,
                                                     const std::string& source);
 
-/// The preset of that name, or else the file that `open` gives the text of.
+/// Returns the preset of that name, or else reads the file with `open`.
 [[nodiscard]] base::Result<Operator> load_operator(const std::string& file_or_name,
                                                    const base::OpenFile& open);
 
-/// TOML that reads back as the same operator; of every parameter.
+/// Returns every parameter as TOML. Reading it gives the same operator.
 [[nodiscard]] std::string print_operator(const Operator& person);
 
-/// Returns one of `of` operators that together spread every parameter evenly over +-30 % of
-/// `person`'s: a latin hypercube (McKay, Beckman, Conover 1979). A pure function of its arguments;
-/// 0 stays 0.
+/// Returns one of `of` operators that together distribute every parameter evenly over +-30 % of
+/// that of `person`: a latin hypercube (McKay, Beckman, Conover 1979). A pure function of its
+/// arguments; 0 stays 0.
 [[nodiscard]] Operator varied(const Operator& person, base::Seed seed, std::uint32_t index,
                               std::uint32_t of);
 

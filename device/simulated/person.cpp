@@ -10,10 +10,11 @@ namespace hapnet::device {
 
 namespace {
 
-// The hand takes this long from its rest to its part.
+// The time that the hand takes from its rest position to its part.
 constexpr double approach_s = 0.8;
 
-// A governor wants a second of rest before a press: half a second more, to come to rest.
+// A governor requires a second of rest before a press. The hand waits half a second more, to come
+// to rest.
 constexpr base::Duration rest_before_press{std::chrono::milliseconds{1500}};
 constexpr base::Duration press_length{std::chrono::milliseconds{400}}; // a press counts after 0.3 s
 constexpr base::Duration press_every{std::chrono::seconds{2}};
@@ -87,7 +88,8 @@ Person::Aim Person::aim_of_part(base::TimePoint now)
         target.x += noise.away_m;
         aim.force_share = noise.force_share;
     }
-    // First aside, then to the part: the straight way might push the cube.
+    // The hand moves aside first, and then to the part, because the straight path might push the
+    // cube.
     const double u = base::to_seconds(now - *cued_at_) / approach_s;
     if (u >= 1.0) return aim;
     const glm::dvec3 aside{part_->script.aside_x(), 0.0, rest_.z};

@@ -21,19 +21,19 @@ struct Role {
     std::shared_ptr<const HandTrace> way{}; // path that the person follows instead of the task's
 };
 
-/// A simulated person who plays a part of a task: what the hand means to do at a time, and how it
-/// answers what it feels. At a fault of the device the hand stays where it is, without pressing,
-/// and presses the primary button every two seconds until the fault is over; then it goes back to
-/// its part. Not a human being: a script, a wavering will and reflexes. P1 is a
-/// prescribed path: there the hand neither wavers nor reacts.
+/// A simulated person who plays a part of a task: the intention of the hand at a time, and its
+/// response to what it feels. At a fault of the device the hand stays where it is, without
+/// pressing, and presses the primary button every two seconds until the fault is over; then it
+/// returns to its part. Not a human being: a script, a wavering will and reflexes. P1 is a
+/// prescribed path, on which the hand neither wavers nor reacts.
 class Person {
 public:
     explicit Person(const Role& role);
 
-    /// Takes the session's start. `rest` is the place where the hand is.
+    /// Takes the session's start. `rest` is the position of the hand.
     void on_cue(const Cue& cue, const glm::dvec3& rest);
 
-    /// A fault of the device was latched, or has ended.
+    /// Notes that a fault of the device was latched, or has ended.
     void on_fault(bool is_latched);
 
     /// The hand's intention, and the error of its force.
@@ -42,20 +42,22 @@ public:
         double force_share = 0.0;
         std::optional<double> searched_x{}; // the task's x while the hand searches; else nullopt
     };
-    /// The hand's intention at `now`. The way to its part begins with the first call after the cue.
+    /// Returns the hand's intention at `now`. The movement to its part begins with the first call
+    /// after the cue.
     [[nodiscard]] Aim aim(base::TimePoint now);
 
-    /// Its perception: the deviation from its intention, and the device's force.
+    /// The person's perception: the deviation from the intention, and the device's force.
     struct Feedback {
         glm::dvec3 deviation{0.0};
         glm::dvec3 force{0.0};
     };
-    /// The target that it pulls to then, and its force besides its own impedance's.
+    /// The target toward which the hand then pulls, and the force in addition to that of its
+    /// impedance.
     struct Effort {
         base::Position target;
         glm::dvec3 force{0.0};
     };
-    /// Once per aim().
+    /// Returns the effort of the hand. Call it once per aim().
     [[nodiscard]] Effort effort(const Aim& aim, const Feedback& feedback, base::TimePoint now,
                                 base::Duration elapsed);
 
@@ -67,7 +69,7 @@ private:
         bool is_over = false;
         base::Position place{};                 // where the hand stays
         std::optional<base::TimePoint> since{}; // start; nullopt: with the next aim()
-        std::optional<base::TimePoint> left{};  // start of the way back to the part
+        std::optional<base::TimePoint> left{};  // start of the return to the part
     };
     [[nodiscard]] Aim aim_of_part(base::TimePoint now);
     [[nodiscard]] Aim paused(const Aim& aim, base::TimePoint now);

@@ -9,9 +9,9 @@
 
 namespace hapnet::device {
 
-/// In T2: from `begin_s` to `end_s`, seconds from the session's start, one hand's aim swings as
-/// amplitude * sin(2 pi hertz (t - begin)) into the cube, in whole cycles, while the other holds.
-/// The first cycle is the swinging in: measure from begin_s + 1 / hertz.
+/// For T2: from `begin_s` to `end_s`, seconds from the session's start, one hand's aim oscillates
+/// as amplitude * sin(2 pi hertz (t - begin)) into the cube, in whole cycles, while the other hand
+/// holds. The first cycle is transient: measure from begin_s + 1 / hertz.
 struct PressInterval {
     double begin_s = 0.0;
     double end_s = 0.0;
@@ -27,8 +27,8 @@ inline constexpr std::array<PressInterval, 6> press_schedule{{{2.0, 8.0, true, 0
                                                               {20.75, 24.75, false, 1.0},
                                                               {24.75, 26.75, false, 2.0}}};
 
-/// Returns the schedule under the options: all intervals at one frequency, each cut to whole
-/// cycles, which may be none.
+/// Returns the schedule for the options: all intervals at one frequency, each cut to whole cycles,
+/// which may be none.
 [[nodiscard]] inline std::array<PressInterval, 6> press_schedule_of(const TaskOptions& options)
 {
     std::array<PressInterval, 6> schedule = press_schedule;

@@ -59,7 +59,7 @@ double Reactions::farther(const Perception& felt, base::TimePoint now, base::Dur
         const double moved = farther_m_ + intent.gain_m_per_ns * seconds * missing_n_;
         farther_m_ = std::clamp(moved, -farther_max_m, farther_max_m);
     } else {
-        farther_m_ *= smoothing_keeps_; // back to where the script wants the hand
+        farther_m_ *= smoothing_keeps_; // back to the script's target
     }
     return farther_m_;
 }

@@ -14,15 +14,15 @@ struct Perception {
     glm::dvec3 deviation{0.0};        // of the hand from its intention, m
     double pressing_n = 0.0;          // force with which the hand presses
     std::optional<double> wanted_n{}; // force with which it wants to press; nullopt: any
-    /// The task's aim along the direction toward the body, metres, while the hand looks for it;
-    /// nullopt: it does not look.
+    /// The task's aim along the direction toward the body, metres, while the hand searches;
+    /// nullopt: it does not search.
     std::optional<double> aim_m{};
 };
 
 /// The reaction of the person.
 struct Reaction {
     glm::dvec3 force{0.0};  // force of the stretch reflex, N
-    double farther_m = 0.0; // how much farther the hand means to press, m
+    double farther_m = 0.0; // additional distance by which the hand intends to press, m
 };
 
 /// A simulated person's stretch reflex, intent and search. Costs nothing for an operator without
@@ -38,7 +38,7 @@ private:
     [[nodiscard]] double farther(const Perception& felt, base::TimePoint now,
                                  base::Duration elapsed);
 
-    /// Returns how much farther the hand goes in search of the body, m.
+    /// Returns the additional distance of the hand in search of the body, m.
     [[nodiscard]] double ahead(const Perception& felt, base::TimePoint now, base::Duration elapsed);
 
     Operator person_;
@@ -46,7 +46,7 @@ private:
     SignalHistory missed_;
     double missing_n_ = 0.0; // smoothed lack of pressing force
     double farther_m_ = 0.0;
-    base::Duration smoothed_over_{}; // time step that smoothing_keeps_ is for
+    base::Duration smoothed_over_{}; // time step for which smoothing_keeps_ was computed
     double smoothing_keeps_ = 1.0;
     double ahead_m_ = 0.0;
     std::optional<base::TimePoint> untouched_since_;

@@ -13,14 +13,15 @@ namespace hapnet::device {
 
 namespace {
 
-// The scene as a hand must know it: the HIP touches the cube's face 25 mm from its centre.
+// The geometry of the scene for the hand: the HIP touches the cube's face 25 mm from its centre.
 constexpr double touching_m = 0.025;
 constexpr double clear_m = 0.055; // x from the cube's centre, on the way to the part
 
-// The distance that a hand keeps before it closes in; in T1, that of the idle hand.
+// The distance from the cube at which a hand waits before it approaches; in T1, that of the idle
+// hand.
 constexpr double clearance_m = 0.008;
-// The hand closes in to this distance, and then presses gently: a cube that two hands touch gives
-// way unopposed for as long as their forces travel.
+// The distance to which the hand approaches before it presses gently. A cube that two hands touch
+// yields without resistance while their forces are in transit.
 constexpr double near_m = 0.001;
 constexpr double near_after_s = 0.5;
 constexpr double pressing_after_s = 2.0;
@@ -37,18 +38,17 @@ constexpr double turn_speed_m_per_s = 0.020;
 // The stiffness of the contact between a finger and the cube.
 constexpr double contact_n_per_m = 500.0;
 
-// T3: what 4 mm of a nominal hand's aim press with; the mean stays below 0.8 N.
+// T3: the force of a nominal hand that aims 4 mm inside; the mean stays below 0.8 N.
 constexpr double carry_squeeze_n = 4.0 / 7.0;
 
-// T4: the friction between finger and cube carries the cube's 0.5 N on 0.86 N of squeeze twice
-// over. The aim goes a little farther than the cube should, because the hands give way by that
-// distance.
+// T4: the friction between finger and cube at 0.86 N of squeeze carries twice the cube's 0.5 N. The
+// aim is a little higher than the cube should go, because the hands yield by that distance.
 constexpr double lift_aim_m = 0.0525;
 constexpr double lift_begins_s = 6.0; // by then the hands have made up for delayed forces
 constexpr double lift_takes_s = 2.0;
 constexpr double lift_holds_s = 5.0;
 
-// T5: the cube stands before the static one, and both hands press its left face, side by side.
+// T5: the cube is next to the static one, and both hands press its left face, side by side.
 constexpr double wall_apart_m = 0.006; // distance of each hand from the face's middle, along z
 constexpr double wall_lets_go_s = 5.0; // B lets go; then every 5 s one hand, A and B in turn
 constexpr double wall_every_s = 5.0;
@@ -58,14 +58,15 @@ constexpr double wall_back_off_takes_s = 0.05;
 constexpr double wall_away_s = 2.0;
 constexpr double wall_returns_s = 1.0;
 
-// T6: the tapping hand swings about a point off the face, so that it meets it on its way in.
+// T6: the tapping hand oscillates about a point off the face, so that it hits the face on its way
+// in.
 constexpr double taps_begin_s = 2.0;
 constexpr double tap_hertz = 3.0;
 constexpr double tap_amplitude_m = 0.013;
 constexpr double tap_off_m = 0.004;
 
-// T8: the distance from the cube's middle at which a hand presses; when the hand turns the other
-// way, on the other side.
+// T8: the distance from the cube's middle at which a hand presses. When the hand turns the cube in
+// the other direction, it presses on the other side of the middle.
 constexpr double turn_beside_m = 0.010;
 constexpr double turn_angle_rad = 0.5; // rotation of the cube each way
 constexpr double turn_squeeze_n = 0.7;
@@ -91,13 +92,13 @@ double sine_of_turns(double turns)
     return sine[0];
 }
 
-/// Goes smoothly from 0 to 1 between two times.
+/// Returns a smooth transition from 0 to 1 between two times.
 double between(double begin, double end, double t)
 {
     return minimum_jerk((t - begin) / (end - begin));
 }
 
-/// The depth within the cube's face at which a hand aims that closes in from the start on.
+/// Returns the depth within the cube's face of the aim of a hand that approaches from the start on.
 double closing(double squeeze, double t)
 {
     return -clearance_m + (clearance_m - near_m) * between(0.0, near_after_s, t) +
@@ -119,7 +120,7 @@ Script::Script(Task task, const Cue& cue, const TaskOptions& options, const Hand
       side_{cue.is_left ? -1.0 : 1.0},
       depth_m_per_n_{1.0 / hand.stiffness_n_per_m + 1.0 / contact_n_per_m}
 {
-    // In T5 both are left of the cube.
+    // In T5 both hands are left of the cube.
     if (task == Task::t5) side_ = -1.0;
 }
 
@@ -150,7 +151,8 @@ Intention Script::at(base::TimePoint now) const
     Intention intention = working(std::clamp(t, 0.0, hands_on));
     if (t < 0.0 || t >= hands_on) intention.gripping = intention.searching = false;
     if (t < hands_on) return intention;
-    // Up and aside: after an outage the two copies may be apart, and aside alone may not be off.
+    // The hand moves up and aside. After an outage the two copies may be apart, so that aside alone
+    // might not release the cube.
     const double gone = minimum_jerk((t - hands_on) / let_go_s);
     intention.target.value += glm::dvec3{side_ * let_go_m * gone, lift_off_m * gone, 0.0};
     intention.pressing_n.reset();
@@ -171,8 +173,8 @@ Intention Script::working(double t) const
             intention.gripping = true;
             return intention;
         }
-        // The watcher keeps out of the way of the carried cube, also of one that a prediction
-        // carries through the static cube.
+        // The watching hand stays out of the path of the carried cube, even of one that a
+        // prediction carries through the static cube.
         Intention intention = at_x(watching_x_m);
         intention.target.value.y = lift_off_m;
         return intention;
@@ -265,13 +267,14 @@ double Script::tap_x(double t) const
     return -touching_m - tap_off_m + tap_amplitude_m * swing;
 }
 
-/// Above and behind what the others carry.
+/// Returns an intention above and behind the objects that the others carry.
 Intention Script::watch() const
 {
     return {.target = {{side_ * clear_m, watching_y_m, watching_z_m}}};
 }
 
-/// The cube turns about the vertical with the hands: even turns one way, odd ones back.
+/// Returns the intention in T8: the cube turns about the vertical with the hands, in one direction
+/// in even turns, and back in odd ones.
 Intention Script::turn(double t) const
 {
     const double number = std::floor(t / turn_every_s);

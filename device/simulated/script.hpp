@@ -14,19 +14,20 @@
 
 namespace hapnet::device {
 
-/// The intention of a hand: its place, whether it grips, the force with which it presses, and
-/// whether it looks for a body that it does not feel.
+/// The intention of a hand: its position, whether it grips, the force with which it presses, and
+/// whether it searches for a body that it does not feel.
 struct Intention {
     base::Position target;
     bool gripping = false;
     std::optional<double> pressing_n{}; // nullopt: the task asks for no force
-    bool searching = false;             // the task means to touch a body that may be away
+    bool searching = false;             // the task intends to touch a body that may be elsewhere
 };
 
 /// One hand's part in a task: a pure function of time.
 class Script {
 public:
-    /// `hand`: its stiffness decides how far it has to aim into the cube to press as it means to.
+    /// The stiffness of `hand` determines how far it has to aim into the cube to press with the
+    /// intended force.
     Script(Task task, const Cue& cue, const TaskOptions& options = {},
            const HandImpedance& hand = {});
 
@@ -35,9 +36,10 @@ public:
 
     [[nodiscard]] Intention at(base::TimePoint now) const;
 
-    /// The x of the way from its rest to its part, clear of a cube at its start.
+    /// Returns the x of the path from its rest position to its part, clear of a cube at its initial
+    /// position.
     [[nodiscard]] double aside_x() const;
-    /// +1: it presses toward +x, -1: toward -x.
+    /// Returns +1 if the hand presses toward +x, -1 if it presses toward -x.
     [[nodiscard]] double pressing_toward() const;
 
 private:
@@ -54,7 +56,7 @@ private:
     [[nodiscard]] Intention turn(double t) const;
     [[nodiscard]] Intention watch() const;
     [[nodiscard]] double squeeze_n() const;
-    /// The depth within the face at which the hand aims in order to press so.
+    /// Returns the depth within the face at which the hand aims in order to press with this force.
     [[nodiscard]] double depth_m(double force_n) const;
 
     Task task_;

@@ -11,21 +11,21 @@
 
 namespace hapnet::device {
 
-/// The past values of a vector: a nerve delivers the one of some time ago. A value holds until the
-/// next; before the first it was zero. 1024 samples are kept, a second of ticks; for an earlier
-/// time the oldest of them is given.
+/// The past values of a vector, for delayed perception by nerves. A value is in effect until the
+/// next one. Before the first value it is zero. 1024 samples are kept, a second of ticks; for an
+/// earlier time the oldest of them is returned.
 class SignalHistory {
 public:
     static constexpr base::Duration delay_max{std::chrono::seconds{1}};
 
-    /// `now` never runs backwards.
+    /// Adds a value. `now` never runs backwards.
     void put(base::TimePoint now, const glm::dvec3& value)
     {
         samples_[written_ % samples_.size()] = {now, value};
         ++written_;
     }
 
-    /// `then` never runs backwards.
+    /// Returns the value at `then`, which never runs backwards.
     [[nodiscard]] glm::dvec3 at(base::TimePoint then)
     {
         if (written_ - read_ > samples_.size()) read_ = written_ - samples_.size();
@@ -46,7 +46,7 @@ private:
 
     std::array<Sample, 1024> samples_{};
     std::uint64_t written_ = 0; // number of samples
-    std::uint64_t read_ = 0;    // number of the sample given last
+    std::uint64_t read_ = 0;    // number of the sample returned last
 };
 
 } // namespace hapnet::device

@@ -16,7 +16,7 @@ namespace {
 /// Returns the sum of the four sines that move the hand, in millimetres.
 double swings_mm(double seconds)
 {
-    // Phases in turns, of 3.09, 3.24, 4.43 and 5.32 rad.
+    // Phases in turns; in radians they are 3.09, 3.24, 4.43 and 5.32.
     std::array<double, 4> sines{
         0.484 * seconds + 3.09 / base::two_pi, 0.501 * seconds + 3.24 / base::two_pi,
         0.383 * seconds + 4.43 / base::two_pi, 0.254 * seconds + 5.32 / base::two_pi};

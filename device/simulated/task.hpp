@@ -37,18 +37,19 @@ using base::name_of;
 inline constexpr std::array all_tasks{Task::p1, Task::t1, Task::t2, Task::t3, Task::t4, Task::t5,
                                       Task::t6, Task::t7, Task::t8, Task::t9, Task::t10};
 
-/// "P1", "T1", ... "T10"
+/// Returns the task with this name: "P1", "T1", ... "T10".
 [[nodiscard]] base::Result<Task> task_named(std::string_view name);
 
-/// The name of the built-in scene that the task is made for. Where two play T1, T2 or T3 in the
-/// paper's scene, more play in one with room for their hands.
+/// Returns the name of the built-in scene for the task. Two hands play T1, T2 or T3 in the paper's
+/// scene; more hands play them in a scene with room for all.
 [[nodiscard]] std::string_view scene_of(Task task, std::size_t peers = 2);
 
-/// The x of the path that the cube is to follow, metres, `seconds` from the start: the sum of four
-/// sines, cut off at the static cube, fitted so that the one-way delay of 160 ms alone gives the
-/// first column of the paper's Table 1 (13.61 mm mean, 10.68 mm standard deviation, 47.25 mm
-/// maximum). The path starts at 0 and reaches its full size within the first second. The hand that
-/// carries the cube aims along it, and so stops where the static cube stops the cube.
+/// Returns the x of the path that the cube is to follow, metres, `seconds` from the start. It is
+/// the sum of four sines, cut off at the static cube, fitted so that the one-way delay of 160 ms
+/// alone gives the first column of the paper's Table 1 (13.61 mm mean, 10.68 mm standard deviation,
+/// 47.25 mm maximum). The path starts at 0 and reaches its full size within the first second. The
+/// hand that carries the cube aims along this path, and so stops where the static cube stops the
+/// cube.
 [[nodiscard]] double path_x(double seconds);
 
 } // namespace hapnet::device

@@ -10,11 +10,11 @@
 
 namespace hapnet::device {
 
-/// Options of a task. Unset ones take the task's own value.
+/// The options of a task. For unset options the task's own value is used.
 struct TaskOptions {
-    /// T3 to T8: the force that a hand aims to press with on a cube that stays where it is; in T3,
-    /// T7 and T8 the hands on one side together. T3 and T7 0.57 N, T4 0.86 N, T5 0.71 N, T6 0.14 N
-    /// (the resting hand), T8 0.7 N.
+    /// T3 to T8: the force with which a hand intends to press on a cube that stays where it is; in
+    /// T3, T7 and T8 that of the hands on one side together. The defaults are T3 and T7 0.57 N, T4
+    /// 0.86 N, T5 0.71 N, T6 0.14 N (the resting hand), T8 0.7 N.
     std::optional<double> squeeze_n{};
     double press_depth_m = 0.004;        // T2: how far each hand aims within the cube
     double press_amplitude_m = 0.0035;   // T2: amplitude of the presser's aim

@@ -102,7 +102,8 @@ Sample PolledDevice::read(base::TimePoint now)
 
 void PolledDevice::apply(const GovernedForce& force)
 {
-    // First: a command from before the halt must not come back for an exchange.
+    // This comes first, because a command from before the halt must not be sent in a later
+    // exchange.
     shared_->commands.put({force.force(), force.motors_on()});
     shared_->halted.store(false, std::memory_order_release);
 }

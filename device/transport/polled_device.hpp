@@ -9,15 +9,15 @@
 
 namespace hapnet::device {
 
-/// A device that is asked by a thread of its own, because an answer may take longer than a tick
-/// allows, and a hang of whatever leads to it must not hang the loop. The thread only moves
-/// samples: two thousand exchanges a second at most.
+/// A device that is polled by a thread of its own, because an answer may take longer than a tick
+/// allows, and a hang of the connection must not block the loop. The thread only transfers samples:
+/// two thousand exchanges a second at most.
 class PolledDevice final : public Device {
 public:
     PolledDevice(std::unique_ptr<polled::Exchange> exchange, Identity identity,
                  const Capabilities& capabilities);
-    /// Waits until three exchanges have sent zero force, but no longer than close_max: a thread
-    /// that hangs lets go of the device when its call returns.
+    /// Waits until three exchanges have sent zero force, but no longer than close_max. A thread
+    /// that hangs releases the device when its call returns.
     ~PolledDevice() override;
     PolledDevice(const PolledDevice&) = delete;
     PolledDevice& operator=(const PolledDevice&) = delete;

@@ -20,7 +20,7 @@ base::Result<SharedLibrary> SharedLibrary::load(const std::string& file,
                                                 std::span<const char* const> usual_names)
 {
     if (!file.empty()) {
-        // dlopen() looks through the system's folders for a name without a slash.
+        // For a name without a slash, dlopen() searches the system's folders.
         const std::string path = file.find('/') == std::string::npos ? "./" + file : file;
         if (void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
             return SharedLibrary{library};

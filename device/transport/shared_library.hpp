@@ -10,22 +10,23 @@
 namespace hapnet::device {
 
 /// A vendor's library, loaded when it is needed and never unloaded: drivers fail when they are
-/// loaded a second time (CHAI3D saw it).
+/// loaded a second time (observed by CHAI3D).
 class SharedLibrary {
 public:
     /// Loads `file`, or with "" the first of the usual names that the system finds. The error is
-    /// the loader's complaint about the first one.
+    /// the loader's message about the first one.
     [[nodiscard]] static base::Result<SharedLibrary> load(const std::string& file,
                                                           std::span<const char* const> usual_names);
 
-    /// Sets the function of this name; remembers the first that is not there.
+    /// Sets the pointer to the function of this name. Remembers the name of the first function that
+    /// is missing.
     template <typename Function>
     void find(Function*& function, const char* name)
     {
         function = reinterpret_cast<Function*>(symbol(name));
         if (function == nullptr && missing_.empty()) missing_ = name;
     }
-    /// The name of the first function that was not found; "": all were.
+    /// Returns the name of the first function that was not found; "": all were found.
     [[nodiscard]] const std::string& missing() const { return missing_; }
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A number in the kernel's hexadecimal digits; 0 when there is none.
+/// Returns a number in the kernel's hexadecimal digits; 0 when there is none.
 std::uint16_t usb_number_in(const fs::path& file)
 {
     std::ifstream in{file};

@@ -9,8 +9,8 @@
 
 namespace hapnet::device {
 
-/// The devices of this kind on the USB, by what public lists call them: "Touch (USB 2988:0304)".
-/// For devices that only their vendor's library or service can open.
+/// Returns the devices of this kind on the USB, with the names from public lists: "Touch (USB
+/// 2988:0304)". For devices that only their vendor's library or service can open.
 [[nodiscard]] std::vector<std::string> models_on_usb(UsbKind kind);
 
 } // namespace hapnet::device

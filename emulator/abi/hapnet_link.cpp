@@ -34,14 +34,14 @@ using namespace hapnet::emulator; // NOLINT(google-global-names-in-headers)
 
 namespace {
 
-/// The limits of the datagrams in flight on one link, each way.
+/// The limits of the datagrams in flight on one link, in each direction.
 constexpr auto limits = QueueLimits::within(std::size_t{64} << 20);
 constexpr base::Duration budget = std::chrono::milliseconds{1};
 
 base::TimePoint time_of(std::int64_t ns) { return base::TimePoint{base::Duration{ns}}; }
 std::int64_t ns_of(base::TimePoint time) { return time.time_since_epoch().count(); }
 
-/// Writes like snprintf(): a cut text has its final 0, too.
+/// Writes like snprintf(): truncated text also ends with a 0.
 std::size_t write(std::string_view text, char* buffer, std::size_t size)
 {
     if (size > 0) {
@@ -52,7 +52,8 @@ std::size_t write(std::string_view text, char* buffer, std::size_t size)
     return text.size();
 }
 
-/// The profile of a text, or of a preset's name. `folder`: null, no files.
+/// Returns the profile in a text, or the preset of that name. `folder`: null: no files can be
+/// opened.
 base::Result<Profile> profile_of(const std::string& text, const net::Folder* folder)
 {
     const OpenFile open = [&](const std::string& name) -> base::Result<std::string> {
@@ -99,7 +100,8 @@ struct hapnet_link {
         Datagram datagram;
     };
 
-    /// A packet without delay, and a copy of its bytes: the path keeps none of such a packet.
+    /// A packet without delay, with a copy of its bytes, because the path does not keep the bytes
+    /// of such a packet.
     struct Untouched {
         Leaving leaving;
         std::vector<std::byte> bytes;
@@ -109,7 +111,7 @@ struct hapnet_link {
         : path{profile, {.seed = base::Seed{seed}, .limits = limits}}
     {}
 
-    /// Follows the timeline step by step, as a daemon does that wakes up for each.
+    /// Follows the timeline step by step, like a daemon that wakes up for each step.
     void advance(std::int64_t now_ns)
     {
         now = std::max(now, time_of(now_ns));
@@ -136,8 +138,8 @@ struct hapnet_link {
         return 0;
     }
 
-    /// The next packet that is due, the earliest of all; of equal ones up comes first. It stays
-    /// the next one until leave().
+    /// Returns the earliest packet that is due; of packets due at the same time, up comes first. It
+    /// stays the next one until leave().
     const Leaving* find_due()
     {
         if (next) return &*next;
@@ -197,7 +199,7 @@ struct hapnet_link {
     EmulatedPath path;
     std::deque<Untouched> untouched;
     std::optional<Leaving> next;
-    std::string fate; // fate of the packet that was pushed last
+    std::string fate; // fate of the last pushed packet
 };
 
 namespace {
@@ -212,7 +214,7 @@ hapnet_link* create(const char* profile, const net::Folder* folder, std::uint64_
 
 } // namespace
 
-// No exception may leave a function that C calls.
+// No exception may leave a function that is called from C.
 
 hapnet_link* hapnet_link_create(const char* profile, std::uint64_t seed, char* error,
                                 std::size_t error_bytes)

@@ -20,18 +20,19 @@
 
 namespace hapnet::emulator {
 
-/// The scripts that the paths of a run follow after `apply` of a profile: one for each path with
-/// settings of its own, and one that all others share.
+/// The scripts that the paths of a run follow once a profile is applied: one for each path with
+/// settings of its own, and one that all other paths share.
 class Scripts {
 public:
     explicit Scripts(const Profile& profile);
 
-    /// The script of a path; paths without settings of their own share one.
+    /// Returns the script of a path. Paths without settings of their own share one.
     [[nodiscard]] const std::shared_ptr<const Script>& of(std::string_view path) const;
     /// The names of the paths with settings of their own.
     [[nodiscard]] const std::vector<std::string>& mentioned() const { return mentioned_; }
 
-    /// Tells each path to follow its script. The scripts outlive the command.
+    /// Returns the command that makes each path follow its script. The scripts must outlive the
+    /// command.
     [[nodiscard]] Paths::CommandFor command() const;
 
 private:
@@ -51,13 +52,13 @@ struct NextNumbers {
 struct Effect {
     std::uint64_t generation = 0;
     bool has_changed = false;
-    base::TimePoint at{}; // time from which it holds
+    base::TimePoint at{}; // time from which the command is in effect
     base::Duration elapsed{};
-    std::vector<NextNumbers> next; // first datagrams of each path for which it holds
+    std::vector<NextNumbers> next; // the first datagrams of each path that it affects
 };
 
-/// Tells all paths at once, in one step of the emulation's work; see Paths::apply(). The calling
-/// thread frees the replaced settings.
+/// Applies the command to all paths at once, in one step of the emulation's work; see
+/// Paths::apply(). The calling thread frees the replaced settings.
 [[nodiscard]] base::Result<Effect> change(Emulation& emulation, const Paths::CommandFor& command,
                                           std::span<const std::string> mentioned,
                                           base::TimePoint now, ChangeCause by = ChangeCause::hand);

@@ -16,8 +16,8 @@ namespace hapnet::emulator {
 
 // The frame of an emulator: docs/formats/live.md.
 
-/// One direction of a path since the frame before; the number of waiting datagrams is the present
-/// one.
+/// The traffic of one direction of a path since the previous frame. The number of waiting datagrams
+/// is the current one.
 struct WayFrame {
     Counters counters;
     Pulse pulse;

@@ -18,7 +18,7 @@ constexpr std::array directions{Direction::up, Direction::down};
 
 control::FrameSource Frames::watch(AllPaths& paths, const control::DoWork& work)
 {
-    const Look first = share_out(paths, work); // earlier traffic belongs to other watches
+    const Look first = share_out(paths, work); // excludes earlier traffic
     auto watch = std::make_shared<Watch>();
     for (const SeenPath& one : first.paths) {
         Ways& ways = watch->paths[one.name];
@@ -68,7 +68,7 @@ Frames::Look Frames::share_out(AllPaths& paths, const control::DoWork& work)
 
 WayFrame Frames::frame_of(Way& way, const Seen& seen)
 {
-    // The counters of a path that disappeared and came back begin at 0.
+    // The counters of a path that was removed and added again begin at 0.
     if (seen.counters.received < way.counters.received) way = {};
     const WayFrame frame{base::counted_since(seen.counters, way.counters), way.pulse};
     way = {{}, seen.counters};
@@ -93,7 +93,7 @@ void Frames::write(std::string& text, Watch& watch, const Look& look, std::uint6
     if (left_out > 0) frame.left_out = left_out;
     text += control::line_of(base::json_of(frame));
     if (watch.paths.size() <= 2 * paths_max) return;
-    // Clients come and go: forget those that have gone.
+    // Clients come and go: remove the entries of those that have gone.
     std::erase_if(watch.paths, [&](const auto& entry) {
         return std::ranges::none_of(look.paths,
                                     [&](const SeenPath& one) { return one.name == entry.first; });

@@ -20,19 +20,20 @@
 
 namespace hapnet::emulator {
 
-/// Makes frames for watches: docs/formats/live.md. Whenever one watch asks, the departures from the
-/// links are shared out to all of them, so that none misses a departure that another has seen.
+/// Makes frames for watches: docs/formats/live.md. Whenever one watch asks for a frame, the
+/// departures from the links are distributed to all watches, so that each watch sees every
+/// departure.
 class Frames : public std::enable_shared_from_this<Frames> {
 public:
     /// Largest number of paths in a frame.
     static constexpr std::size_t paths_max = 32;
 
-    /// Begins a watch; it ends when the source is destroyed, and `paths` outlive it. They are
-    /// looked at by `work` alone.
+    /// Begins a watch, which ends when the returned source is destroyed. `paths` must outlive the
+    /// source. Only steps of `work` read the paths.
     [[nodiscard]] control::FrameSource watch(AllPaths& paths, const control::DoWork& work);
 
 private:
-    /// One direction of a path at a look.
+    /// One direction of a path at one look.
     struct Seen {
         Pulse pulse; // traffic since the previous look
         Counters counters;
@@ -46,7 +47,7 @@ private:
         base::Duration elapsed{};
         std::uint64_t generation = 0;
         std::size_t all_paths = 0;
-        std::vector<SeenPath> paths; // as many as a frame has room for
+        std::vector<SeenPath> paths; // at most as many as a frame has room for
     };
 
     /// One direction of a path, as a watch sees it.
@@ -61,9 +62,10 @@ private:
     };
 
     [[nodiscard]] static Look look(AllPaths& paths);
-    /// Takes a look, and gives what has left the links to every watch.
+    /// Takes a look, and adds the departures from the links to every watch.
     [[nodiscard]] Look share_out(AllPaths& paths, const control::DoWork& work);
-    /// The figures of one direction since its last frame. The next ones count from here.
+    /// Returns the figures of one direction since its last frame. The next figures count from this
+    /// call.
     [[nodiscard]] static WayFrame frame_of(Way& way, const Seen& seen);
     static void write(std::string& text, Watch& watch, const Look& look, std::uint64_t left_out);
 

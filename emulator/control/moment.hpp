@@ -16,11 +16,11 @@ namespace hapnet::emulator {
 /// A copy of the director of a path.
 struct Decider {
     std::string name;
-    bool is_there = false; // the path exists; false: it is still to come
+    bool is_there = false; // the path exists; false: it does not exist yet
     Director director;
 };
 
-/// Copies of all directors of a run, from one moment.
+/// Copies of all directors of a run, taken at one moment.
 struct Moment {
     std::vector<Decider> deciders; // see AllPaths::deciders()
     std::uint64_t generation = 0;
@@ -28,7 +28,8 @@ struct Moment {
     std::optional<base::TimePoint> next_change;
 };
 
-/// Copies them in one step of the emulation's work, after catching up with `now`.
+/// Returns copies of all directors, made in one step of the emulation's work after the paths have
+/// caught up with `now`.
 [[nodiscard]] Moment moment_of(Emulation& emulation, base::TimePoint now);
 
 } // namespace hapnet::emulator

@@ -48,8 +48,8 @@ Json seconds(std::optional<base::Duration> duration)
     return duration ? Json(base::to_seconds(*duration)) : Json(nullptr);
 }
 
-/// Opens the files that a request names: those that it brings along, or else those of the folder,
-/// whose contents are not the client's.
+/// Returns a function that opens the files that a request names: those in the request, or else
+/// those in the folder, whose contents must not be shown to the client.
 OpenFile files_for(const SentFiles& sent, const Emulation& emulation)
 {
     if (sent) {
@@ -68,8 +68,8 @@ OpenFile files_for(const SentFiles& sent, const Emulation& emulation)
     };
 }
 
-/// Reads the profile that a client has sent, or the preset that it has named. `warnings` gets a
-/// sentence for each part of a netem sentence that is done differently here.
+/// Reads the profile in the request, or the preset that it names. Adds to `warnings` a sentence for
+/// each part of a netem sentence that is done differently here.
 base::Result<Profile> parsed(const ProfileText& text, const SentFiles& files,
                              const Emulation& emulation, std::vector<std::string>& warnings)
 {
@@ -89,7 +89,7 @@ base::Result<Profile> parsed(const ProfileText& text, const SentFiles& files,
     });
 }
 
-/// Returns the present conditions, without those that change nothing: {"up.delay":"160ms", ...}.
+/// Returns the current conditions, without those that change nothing: {"up.delay":"160ms", ...}.
 Json conditions_json(const Moment& moment)
 {
     Json json = Json::object();
@@ -104,7 +104,8 @@ Json conditions_json(const Moment& moment)
     return json;
 }
 
-/// The values of the only path, or of each path by its name. Each has the values of its flows.
+/// Returns the values of the only path, or of each path by its name. Each has the values of its
+/// flows.
 Json effective_at(const std::vector<NextNumbers>& all)
 {
     Json json = Json::object();
@@ -118,7 +119,8 @@ Json effective_at(const std::vector<NextNumbers>& all)
     return json;
 }
 
-/// The answer to a command: from when on the conditions hold.
+/// Applies a command and returns the answer, which says from when on the new conditions are in
+/// effect.
 base::Result<Json> effect_of(const Paths::CommandFor& command,
                              std::span<const std::string> mentioned, Emulation& emulation,
                              base::TimePoint now)
@@ -189,8 +191,8 @@ Json live_of(const Director& director)
     return live;
 }
 
-/// Returns the changes that are still to come; with clients, those of clients without settings of
-/// their own.
+/// Returns the changes that are still to come. In a run with clients, they are those of clients
+/// without settings of their own.
 Profile remaining_of(const Emulation& emulation, const std::vector<Decider>& deciders)
 {
     const bool has_clients = emulation.paths.names().clients;
@@ -320,7 +322,8 @@ nlohmann::ordered_json statistics_of(Emulation& emulation)
 
 output::Metrics metrics_of(nlohmann::ordered_json statistics)
 {
-    // Leaves out the sums of links and flows: adding up all entries would count them twice.
+    // Removes the entries of links and flows, because adding them to the sums would count them
+    // twice.
     const auto leave_parts_of = [](nlohmann::ordered_json& whole, const char* parts) {
         if (!whole.contains(parts)) return false;
         whole.erase("up");

@@ -14,8 +14,8 @@
 
 namespace hapnet::emulator {
 
-// The lines that answer requests, each a JSON object without a newline. On the thread of the
-// control.
+// Lines that answer requests, each a JSON object without a newline. Call these functions on the
+// thread of the control.
 
 [[nodiscard]] std::string reply_to(const ShowRequest& request, Emulation& emulation,
                                    base::TimePoint now);
@@ -30,17 +30,18 @@ namespace hapnet::emulator {
 [[nodiscard]] std::string reply_to(const KeepRequest& request, const Emulation& emulation,
                                    base::TimePoint now);
 
-/// The emulator's statistics with "generation" and "elapsed_s".
+/// Returns the emulator's statistics with "generation" and "elapsed_s".
 [[nodiscard]] nlohmann::ordered_json statistics_of(Emulation& emulation);
 
-/// Returns the metrics in the statistics of a run. Each of several links has its own.
+/// Returns the metrics in the statistics of a run. In a run with several links, each link has its
+/// own.
 [[nodiscard]] output::Metrics metrics_of(nlohmann::ordered_json statistics);
 
 /// Returns the answer to a request, or the condition or interval that the client waits for.
 [[nodiscard]] control::Answer answer_to(std::string_view line, Emulation& emulation,
                                         base::TimePoint now);
 
-/// The emulator as its clients see it; it outlives this.
+/// Returns the emulator as its clients see it. `emulation` must outlive the result.
 [[nodiscard]] control::Subject subject_of(Emulation& emulation);
 
 } // namespace hapnet::emulator

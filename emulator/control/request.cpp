@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using control::Members;
 
-/// The least time between two frames that a round of the relay may take along.
+/// The least interval between two frames of a watch. A round of the relay can bear the work for it.
 constexpr base::Duration frames_least = 20ms;
 
 std::vector<SettingText> settings_of(Members& members)

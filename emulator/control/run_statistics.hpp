@@ -19,7 +19,7 @@ namespace hapnet::emulator {
 // The statistics that --stats writes and `stats` answers: docs/formats/statistics.md. Keys that a
 // kind of run does not have are left out.
 
-/// The conditions of a path that are not the default, as a profile writes them.
+/// The conditions of a path that differ from the default, as a profile writes them.
 struct Configuration {
     base::Entries<std::string> up;
     base::Entries<std::string> down;
@@ -30,7 +30,7 @@ constexpr auto fields_of(base::Tag<Configuration>)
                         base::member("down", &Configuration::down));
 }
 
-/// The numbers of the first datagrams for which something holds.
+/// The numbers of the first datagrams, up and down, for which a change is in effect.
 struct FirstDatagrams {
     std::uint64_t up = 0;
     std::uint64_t down = 0;
@@ -95,7 +95,7 @@ constexpr auto fields_of(base::Tag<CourseReport>)
             .left_out_if_none());
 }
 
-/// A flow, or the rest.
+/// The report on a flow, or on the traffic that is in no flow.
 struct FlowReport {
     CourseReport course;
     DirectionReport up;
@@ -109,10 +109,10 @@ constexpr auto fields_of(base::Tag<FlowReport>)
                         base::member("down", &F::down, "From B to A.").label("direction"));
 }
 
-/// Reports of flows by their names; the rest of the traffic is last.
+/// Reports on flows by their names. The traffic that is in no flow is last.
 using FlowReports = base::Entries<FlowReport>;
 
-/// A client of a server.
+/// The report on a client of a server.
 struct ClientReport {
     std::uint64_t number = 0;
     std::string name;
@@ -157,7 +157,7 @@ constexpr auto fields_of(base::Tag<LinkEnds>)
             .left_out_if_none());
 }
 
-/// One of several links.
+/// The report on one of several links.
 struct LinkReport {
     LinkEnds ends;
     CourseReport course;
@@ -176,7 +176,7 @@ constexpr auto fields_of(base::Tag<LinkReport>)
                             .left_out_if_none());
 }
 
-/// Counters of a network interface, apart from those of its path.
+/// The counters of a network interface. They do not include the counters of its path.
 struct InterfaceReport {
     std::string interface;
     std::uint64_t undisturbed = 0;
@@ -206,7 +206,7 @@ constexpr auto fields_of(base::Tag<InterfaceReport>)
             .left_out_if_none());
 }
 
-/// The interfaces of a run between some, by their names.
+/// The interfaces of a run between interfaces, by their names.
 using InterfaceReports = base::Entries<InterfaceReport>;
 
 /// The privileges for punctual sending that the system granted.
@@ -237,7 +237,7 @@ constexpr auto fields_of(base::Tag<CheckReport>)
         base::member("met", &CheckReport::is_met, "Whether it holds."));
 }
 
-/// The program, and how it ran.
+/// The report on the program and its mode of operation.
 struct ProgramReport {
     std::string_view program = "hapnet-emulator";
     std::string_view version;

@@ -16,9 +16,9 @@
 
 namespace hapnet::emulator {
 
-// Between the texts of requests and replies and the values that they stand for.
+// Conversions between the texts of requests and replies and the values that they stand for.
 
-/// The settings of a request, of the paths that `names` has.
+/// Returns the settings of a request. They may be for the paths in `names`.
 [[nodiscard]] base::Result<std::vector<Setting>>
 settings_of(const SetRequest& request, const OpenFile& open, const PathNames& names);
 
@@ -34,7 +34,7 @@ settings_of(const SetRequest& request, const OpenFile& open, const PathNames& na
 [[nodiscard]] std::vector<SettingText> texts_of(Direction direction, const Patch& patch,
                                                 std::string_view path = {});
 
-/// A setting that differs between two paths. "none": it does nothing there.
+/// A setting that differs between two paths. "none": the setting has no effect on that path.
 struct Difference {
     std::string key;
     std::string from;

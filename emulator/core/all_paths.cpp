@@ -25,7 +25,7 @@ base::Result<void> AllPaths::apply(const Paths::CommandFor& command,
     for (Paths* part : parts_) part->count_from(generation());
     auto done = parts_.front()->apply(command, mentioned, now, by);
     if (!done) return done;
-    // They decide the same, and refuse the same.
+    // The other parts decide and refuse alike.
     for (Paths* part : std::span{parts_}.subspan(1)) {
         base::ensure(part->apply(command, mentioned, now, by).has_value());
     }
@@ -78,7 +78,7 @@ std::vector<Paths::Decider> AllPaths::deciders() const
 {
     std::vector<Paths::Decider> all;
     for (const Paths::Named* one : this->all()) all.push_back({one->name, &one->path->director()});
-    // Paths that are not there in any part.
+    // Adds the paths that do not exist in any part.
     for (const Paths::Decider& one : parts_.front()->deciders()) {
         if (std::ranges::find(all, one.name, &Paths::Decider::name) == all.end()) {
             all.push_back(one);

@@ -8,9 +8,9 @@
 
 namespace hapnet::emulator {
 
-/// The paths of a run whose parts relay side by side: each part has Paths of its own, which know
-/// the decisions for the paths of the other parts, and so decide the same. Each command goes to all
-/// parts. Call its functions only while no part is at work.
+/// The paths of a run whose parts relay concurrently. Each part has Paths of its own, which also
+/// know the decisions for the paths of the other parts, so that all parts decide alike. Each
+/// command goes to all parts. Call the functions of this class only while no part is at work.
 class AllPaths {
 public:
     /// All paths of a run with one part. Implicit: most runs have one part.
@@ -18,7 +18,7 @@ public:
     /// `parts` has at least one part.
     explicit AllPaths(std::vector<Paths*> parts);
 
-    /// See Paths::apply(): for all parts, or for none.
+    /// Applies a command to all parts or to none; see Paths::apply().
     base::Result<void> apply(const Paths::CommandFor& command,
                              std::span<const std::string> mentioned, base::TimePoint now,
                              ChangeCause by = ChangeCause::hand);
@@ -26,19 +26,19 @@ public:
     /// See Paths::catch_up().
     void catch_up(base::TimePoint now);
 
-    /// Grows as that of each part does.
+    /// Returns the generation, which grows with that of each part.
     [[nodiscard]] std::uint64_t generation() const;
     [[nodiscard]] base::Duration elapsed() const;
-    /// The latest time that any part has been given.
+    /// Returns the latest time that any part has been given.
     [[nodiscard]] base::TimePoint latest_now() const;
     [[nodiscard]] std::optional<base::TimePoint> next_change() const;
     [[nodiscard]] PathNames names() const { return parts_.front()->names(); }
     [[nodiscard]] const std::vector<Flow>& flows() const { return parts_.front()->flows(); }
 
-    /// The paths that are there, part by part, in the order in which they came.
+    /// Returns the existing paths, part by part, in the order in which they were added.
     [[nodiscard]] std::vector<const Paths::Named*> all() const;
 
-    /// The directors of all paths; see Paths::deciders().
+    /// Returns the directors of all paths; see Paths::deciders().
     [[nodiscard]] std::vector<Paths::Decider> deciders() const;
 
 private:

@@ -19,12 +19,12 @@
 
 namespace hapnet::emulator {
 
-/// A line that sends one datagram after another at a rate, or as a trace allows it, with a queue
-/// before it, or with one for each flow. With a burst it is a token bucket: a datagram of L bytes
-/// that arrives at A leaves at max(A, F), where F = max(F of the one before, A - burst / rate) +
-/// L / rate. Exact: n of b bits that follow each other take ceil(n b /
-/// rate), to the nanosecond, and a change of the rate in the midst of one counts the bits that were
-/// already sent.
+/// A line that sends one datagram after another, at a rate or as a trace allows it, with one queue
+/// before it, or with one queue for each flow. With a burst it is a token bucket: a datagram of L
+/// bytes that arrives at A leaves at max(A, F), where F = max(F of the previous datagram, A - burst
+/// / rate) + L / rate. The times are exact: n datagrams of b bits that follow each other take
+/// ceil(n b / rate), to the nanosecond, and when the rate changes while a datagram is being sent,
+/// the bits that were already sent count.
 class Bottleneck {
 public:
     Bottleneck(const Rate& rate, std::size_t datagrams_max, base::TimePoint start = {},
@@ -42,17 +42,17 @@ public:
 
     [[nodiscard]] bool is_on() const { return is_on_; }
     [[nodiscard]] bool is_idle() const { return queue_.empty() && evicted_.empty(); }
-    /// True if nothing happens in it as long as nothing arrives.
+    /// True if the state of the line does not change as long as nothing arrives.
     [[nodiscard]] bool rests() const { return is_idle() && !has_regimes_; }
-    /// Says if the rate changes by itself from now on. If it does, rests() is false, so that the
-    /// link that changes it is asked first.
+    /// Sets whether the rate changes by itself from now on. If it does, rests() is false, so that
+    /// the link that changes the rate is asked first.
     void have_regimes(bool do_so) { has_regimes_ = do_so; }
-    /// True if it wants to know of what flow a datagram is.
+    /// True if the line needs to know to which flow a datagram belongs.
     [[nodiscard]] bool is_fair() const { return fair_ != nullptr; }
 
     /// True if a payload of this number of bytes would find room at the end of the queue. The
-    /// datagram that is being sent does not count. Where each flow has a queue, the longest one
-    /// makes room.
+    /// datagram that is being sent does not count. If each flow has a queue, the longest queue
+    /// makes room for it.
     [[nodiscard]] bool has_room(std::size_t payload_bytes) const
     {
         if (queue_.empty()) return true;
@@ -61,7 +61,8 @@ public:
                others + payload_bytes + rate_.overhead_bytes <= rate_.queue_bytes_max;
     }
 
-    /// Why the queue drops a datagram that arrives; nullopt: it takes it, and may mark it.
+    /// Returns why the queue drops a datagram that arrives; nullopt: the queue accepts it, and may
+    /// have marked it.
     [[nodiscard]] std::optional<DropCause> refuses(Datagram& datagram)
     {
         if (!has_room(datagram.size())) return DropCause::rate_queue_full;
@@ -78,8 +79,8 @@ public:
         return std::nullopt;
     }
 
-    /// Takes a datagram that arrives now, not before the last one. Ensures that there is room.
-    /// `flow`: a hash of its flow, if it is_fair(). `owner`: see Queued.
+    /// Takes a datagram that arrives now, which must not be earlier than the previous arrival.
+    /// Ensures that there is room. `flow`: a hash of its flow, if is_fair(). `owner`: see Queued.
     void push(const Datagram& datagram, const Fate& fate, std::uint32_t flow = 0,
               Link* owner = nullptr)
     {
@@ -105,17 +106,18 @@ public:
         }
     }
 
-    /// The time when the datagram that is being sent will have left; nullopt when idle, or when the
-    /// line will never send it.
+    /// Returns the time when the datagram that is being sent will have left; nullopt when the line
+    /// is idle or will never finish sending it.
     [[nodiscard]] std::optional<base::TimePoint> next_sent() const
     {
         return evicted_.empty() ? next_sent_ : std::optional{evicted_.front().datagram.due};
     }
 
-    /// Takes the next datagram that has left by `now`; its `due` is the time when its last bit had
-    /// left. Datagrams that still wait when the rate is removed leave at once, also by the time of
-    /// an arrival just before that. Datagrams that the law of the queue drops come here, too, at
-    /// the time when the line was free for them. Those that had to make room come at once.
+    /// Takes the next datagram that has left by `now`. Its `due` is the time when its last bit had
+    /// left. When the rate is removed, the datagrams that still wait leave at once, even if `now`
+    /// is the time of an arrival just before the removal. Datagrams that the law of the queue drops
+    /// also come here, at the time when the line was free for them. Datagrams that were dropped to
+    /// make room come at once.
     [[nodiscard]] std::optional<Queued> pop(base::TimePoint now)
     {
         if (!evicted_.empty()) {
@@ -141,7 +143,7 @@ public:
     }
 
     /// Changes the rate from `now` on, for waiting datagrams and for the rest of the one that is
-    /// being sent. Pop all that has left by `now` first.
+    /// being sent. Call pop() until nothing is left that has left by `now` first.
     void change(const Rate& rate, base::TimePoint now, const QueueControl& control = {})
     {
         manager_.change(control);
@@ -162,7 +164,7 @@ public:
     }
 
 private:
-    /// The capacity that the line has left unused up to a time.
+    /// The capacity that the line has accumulated unused up to a time.
     struct Credit {
         base::TimePoint at{};
         Work work = 0;
@@ -170,7 +172,7 @@ private:
 
     void fill_bucket(base::TimePoint now) { credit_ = {now, rate_.burst_bytes * work_per_byte}; }
 
-    /// The unused capacity of an idle line, at most the burst.
+    /// Returns the unused capacity of an idle line, at most the burst.
     [[nodiscard]] Work credit_at(base::TimePoint now) const
     {
         const Work most = rate_.burst_bytes * work_per_byte;
@@ -184,7 +186,8 @@ private:
 
     [[nodiscard]] std::size_t waiting_turns() const { return is_fair() ? fair_->size() : 0; }
 
-    /// Gives each flow a queue, or none. Datagrams that wait in existing queues are served first.
+    /// Gives each flow a queue of its own, or gives all flows one. Datagrams that wait in existing
+    /// queues are served first.
     void make_fair(const QueueControl& control)
     {
         const bool is_to_be = control.law == QueueLaw::fq_codel;
@@ -198,7 +201,8 @@ private:
         if (is_to_be) fair_ = std::make_unique<FairQueue>(control);
     }
 
-    /// Drops from the longest queues what is too much for all of them (RFC 8290, section 4.1).
+    /// Drops datagrams from the longest queues until all queues together are within their limits
+    /// (RFC 8290, section 4.1).
     void make_room(base::TimePoint now)
     {
         const std::uint32_t most = manager_.control().packets_max;
@@ -216,8 +220,8 @@ private:
         }
     }
 
-    /// The line is free for the front, or for the flow whose turn it is: it sends it unless the
-    /// law of the queue drops it.
+    /// Handles the next datagram when the line is free: the front, or one of the flow whose turn it
+    /// is. The line sends it unless the law of the queue drops it.
     void next_head(base::TimePoint now, Work spare, bool is_first)
     {
         const bool is_judged = queue_.empty();
@@ -237,7 +241,7 @@ private:
         work_ = 0;
     }
 
-    /// True if the line will not be free by then for what arrives now.
+    /// True if the line would still be busy at `then` with what waits now.
     [[nodiscard]] bool is_busy_beyond(base::TimePoint then) const
     {
         constexpr std::size_t most = 1U << 30U; // more bytes count as beyond any time
@@ -253,8 +257,8 @@ private:
         return since_ + base::Duration{nanoseconds} > then;
     }
 
-    /// Starts to send the front. `spare`: what the line could have sent besides at the moment at
-    /// which the one before it was through.
+    /// Starts to send the front. `spare`: the amount that the line could have sent in addition by
+    /// the time the previous datagram had left.
     void begin(base::TimePoint now, Work spare)
     {
         const Work work = queue_.front().line_bytes * work_per_byte;
@@ -264,7 +268,8 @@ private:
         plan(spare - used);
     }
 
-    /// Finds when the front will have left. `spare`: what is left when it needs nothing more.
+    /// Computes when the front will have left. `spare`: the amount left over if the front needs no
+    /// more work.
     void plan(Work spare)
     {
         spare_ = spare;
@@ -310,7 +315,7 @@ private:
     bool has_regimes_ = false;
     QueueManager manager_;
     bool is_managed_;
-    /// Its front is being sent, or is the next to leave without being sent.
+    /// The front is being sent, or is the next to leave without being sent.
     Ring<Queued> queue_;
     std::unique_ptr<FairQueue> fair_; // datagrams behind queue_, if each flow has a queue
     std::deque<Queued> evicted_;      // datagrams dropped to make room, not handed on yet
@@ -319,7 +324,7 @@ private:
     base::TimePoint since_{};
     base::TimePoint begun_{};                  // when the line began to send the front
     std::optional<base::TimePoint> next_sent_; // time when the front will have left
-    Work spare_ = 0;                           // work that the line could do besides, at next_sent_
+    Work spare_ = 0;                           // additional work possible by next_sent_
     Credit credit_{};                          // the line's credit when the last datagram had left
     base::TimePoint start_;                    // start of the run
     std::optional<base::TimePoint> trace_start_;

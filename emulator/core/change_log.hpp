@@ -13,8 +13,8 @@
 
 namespace hapnet::emulator {
 
-/// The cause of a change of conditions: a setting made by hand, or its end; the profile's timeline;
-/// the profile read again.
+/// The cause of a change of conditions. `hand`: a setting made by hand, or its end; `timeline`: the
+/// profile's timeline; `reload`: the profile was read again.
 enum class ChangeCause : std::uint8_t { hand, timeline, reload };
 constexpr auto names_of(base::Tag<ChangeCause>)
 {
@@ -25,19 +25,19 @@ constexpr auto names_of(base::Tag<ChangeCause>)
 struct ConditionChange {
     std::uint64_t generation = 0;
     base::Duration elapsed{};         // time since the start of the run
-    std::uint64_t effective_up = 0;   // number of the first datagram for which it holds
+    std::uint64_t effective_up = 0;   // number of the first datagram that it affects
     std::uint64_t effective_down = 0; // the corresponding number in direction down
     ChangeCause by = ChangeCause::hand;
-    std::shared_ptr<const Path> from{}; // what held before; never null
-    std::shared_ptr<const Path> to{};   // what holds from then on; never null
+    std::shared_ptr<const Path> from{}; // conditions before the change; never null
+    std::shared_ptr<const Path> to{};   // conditions after the change; never null
 
-    /// The settings that changed, as they are from then on.
+    /// Returns the settings that changed, with their new values.
     [[nodiscard]] Patch patch(Direction direction) const;
 };
 
 /// The changes of a path, in their order. A ramp changes the conditions a thousand times a second:
-/// of a row of its steps only the first and the last are kept. Bounded: what comes later than the
-/// first `room` of them is counted.
+/// of its consecutive steps only the first and the last are kept. The log is bounded: it keeps the
+/// first `room` changes and only counts later ones.
 class ChangeLog {
 public:
     static constexpr std::size_t entries_max = 1000;
@@ -47,7 +47,7 @@ public:
     void add(const ConditionChange& change, bool is_step_of_ramp);
 
     [[nodiscard]] const std::vector<ConditionChange>& entries() const { return entries_; }
-    /// Changes that are not among the entries, for want of room.
+    /// Returns the number of changes that were not kept for lack of room.
     [[nodiscard]] std::uint64_t omitted() const { return omitted_; }
 
 private:

@@ -12,14 +12,14 @@
 
 namespace hapnet::emulator {
 
-/// Clients of one server, by the addresses that they send from. Each has a place, which is free
-/// again when it is forgotten.
+/// The clients of one server, by their source addresses. Each client has a place, which is free
+/// again when the client is forgotten.
 template <typename Address>
 class ClientTable {
 public:
     ClientTable(std::size_t clients_max, base::Duration idle) : idle_{idle}, places_(clients_max) {}
 
-    /// The place of a client that is known; it has sent at `at`.
+    /// Returns the place of a known client, and notes that it sent at `at`.
     [[nodiscard]] std::optional<std::size_t> find(const Address& address, base::TimePoint at)
     {
         for (std::size_t i = 0; i < places_.size(); ++i) { // begins with the one found last
@@ -33,7 +33,7 @@ public:
         return std::nullopt;
     }
 
-    /// Takes in a client that is not known; nullopt: there is no place.
+    /// Adds an unknown client and returns its place; nullopt: no place is free.
     [[nodiscard]] std::optional<std::size_t> add(const Address& address, base::TimePoint at)
     {
         for (std::size_t place = 0; place < places_.size(); ++place) {
@@ -46,7 +46,7 @@ public:
 
     [[nodiscard]] const Address& address(std::size_t place) const { return at(place).address; }
 
-    /// The time when the client will have been silent long enough to be forgotten.
+    /// Returns the time at which the client will have been silent long enough to be forgotten.
     [[nodiscard]] base::TimePoint idle_at(std::size_t place) const
     {
         return at(place).heard + idle_;

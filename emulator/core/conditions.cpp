@@ -83,8 +83,8 @@ base::Result<void> validate_weights(const Regime& regime, const std::vector<Regi
         fmt::format("nothing follows regime '{}': give to a weight above 0", regime.name));
 }
 
-/// Returns how many regimes can follow the one at `from` sooner or later, itself included, or, with
-/// `backwards`, can come before it.
+/// Returns the number of regimes that can follow the one at `from` sooner or later, itself
+/// included. With `backwards` it is the number of those that can come before it.
 std::size_t reached(const std::vector<Regime>& all, std::size_t from, bool backwards)
 {
     const auto follows = [&](std::size_t a, std::size_t b) {

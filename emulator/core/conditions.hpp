@@ -33,10 +33,10 @@ constexpr auto names_of(base::Tag<Direction>) { return base::names("up", "down")
     return base::name_of(direction);
 }
 
-/// The order in which datagrams leave that jitter would let overtake each other.
+/// The order of departure of datagrams that jitter would let overtake each other.
 enum class Order : std::uint8_t {
-    keep,   // none leaves before one that arrived earlier: wide jitter lengthens the mean
-    free,   // each leaves at its own time: wide jitter reorders
+    keep,   // no datagram leaves before an earlier arrival; wide jitter lengthens the mean delay
+    free,   // each datagram leaves at its own time; wide jitter reorders
     sorted, // the times are drawn as for free, and the datagrams take them in order of arrival
 };
 constexpr auto names_of(base::Tag<Order>) { return base::names("keep", "free", "sorted"); }
@@ -59,7 +59,7 @@ constexpr auto fields_of(base::Tag<Duplication>)
         base::field("spread", &Duplication::spread, "longest time from the original to its copy"));
 }
 
-/// A share of the datagrams leaves behind its turn, whatever the order policy is.
+/// A share of the datagrams leaves later than its turn, whatever the order policy is.
 struct Reordering {
     base::Probability share{};
     Displacement displacement{};
@@ -78,7 +78,7 @@ constexpr auto fields_of(base::Tag<Reordering>)
             .required());
 }
 
-/// `bits` bits of a share of the datagrams are inverted; 1 <= bits <= Flips::most.
+/// In a share of the datagrams, `bits` bits are inverted; 1 <= bits <= Flips::most.
 struct Corruption {
     base::Probability share{};
     std::uint8_t bits = 1;
@@ -95,7 +95,8 @@ constexpr auto fields_of(base::Tag<Corruption>)
                     "inverted in each of them"));
 }
 
-/// Datagrams larger than `bytes_max` with their IP and UDP headers are dropped; 0: no limit.
+/// Datagrams that, with their IP and UDP headers, are larger than `bytes_max` are dropped; 0: no
+/// limit.
 struct Mtu {
     static constexpr std::size_t header_bytes = 28; // IPv4 and UDP
 
@@ -120,7 +121,7 @@ struct Rate {
 
     std::uint64_t bits_per_second = 0;
     std::size_t overhead_bytes = 28;        // added to each payload; 28: IPv4 and UDP
-    std::size_t queue_bytes_max = 64 << 10; // limit without the one being sent; with overhead
+    std::size_t queue_bytes_max = 64 << 10; // with overhead; without the datagram being sent
     std::optional<RateTraceLaw> trace{};    // instead of bits_per_second
     std::size_t burst_bytes = 0; // size of the token bucket, with overhead; it begins full
 
@@ -128,7 +129,7 @@ struct Rate {
 
     friend bool operator==(const Rate&, const Rate&) = default;
 };
-/// The fields without the trace, which is a law with keys of its own.
+/// Describes the fields without the trace, which is a law with keys of its own.
 constexpr auto fields_of(base::Tag<Rate>)
 {
     return base::fields(
@@ -144,7 +145,8 @@ constexpr auto fields_of(base::Tag<Rate>)
                     "depth of a token bucket: bytes that leave at once after a pause; 0: none"));
 }
 
-// Refuse a stage whose parameters are impossible. The error says what would be right.
+// These functions refuse a stage whose parameters are impossible. The error says what would be
+// right.
 
 [[nodiscard]] base::Result<void> validate(const Mtu& mtu);
 [[nodiscard]] base::Result<void> validate(const Rate& rate);
@@ -154,7 +156,7 @@ constexpr auto fields_of(base::Tag<Rate>)
 
 struct Regime;
 
-/// The states of a link between which it changes by itself: two to four, or none.
+/// The states between which a link changes by itself: two to four, or none.
 struct Regimes {
     base::SharedVector<Regime> all{};
     bool are_together = false; // both directions always have the same regime
@@ -164,12 +166,12 @@ struct Regimes {
     friend bool operator==(const Regimes& a, const Regimes& b);
 };
 
-/// The effect of one direction on its datagrams. The defaults change nothing.
+/// The conditions of one direction. The defaults change nothing.
 struct Conditions {
     Mtu mtu{};
     Rate rate{};
     QueueControl queue{};
-    std::vector<LossLaw> loss{}; // at most loss_laws_max; a datagram that any of them takes is lost
+    std::vector<LossLaw> loss{}; // at most loss_laws_max; a datagram that any law drops is lost
     Corruption corrupt{};
     Duplication duplicate{};
     Variation delay{};
@@ -181,7 +183,7 @@ struct Conditions {
     friend bool operator==(const Conditions&, const Conditions&) = default;
 };
 
-/// The settings that a change sets; the rest stays as it is.
+/// The settings that a change sets. All other settings stay as they are.
 struct Patch {
     std::optional<Mtu> mtu{};
     std::optional<Rate> rate{};
@@ -208,7 +210,7 @@ struct RegimeNameFormat {
 /// Weights of regimes by their names, each finite and not negative.
 using Weights = std::vector<std::pair<std::string, double>>;
 
-/// { bad = 1, gone = 0.5 }
+/// Notation: { bad = 1, gone = 0.5 }
 struct WeightsFormat {
     void read(const base::Node& node, Weights& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const Weights& value) const;
@@ -216,8 +218,8 @@ struct WeightsFormat {
 };
 
 /// One of the states of a link: how long it lasts on average, the states that may follow it, and
-/// its settings of delay, jitter, loss, rate, order, corrupt and duplicate. Settings that it does
-/// not have are the direction's own.
+/// its settings of delay, jitter, loss, rate, order, corrupt and duplicate. For a setting that the
+/// regime does not have, that of the direction is in effect.
 struct Regime {
     std::string name;
     base::Duration stay{};
@@ -226,7 +228,7 @@ struct Regime {
 
     friend bool operator==(const Regime&, const Regime&) = default;
 };
-/// The fields without its conditions, which have the keys of a direction.
+/// Describes the fields without the conditions, which have the keys of a direction.
 constexpr auto fields_of(base::Tag<Regime>)
 {
     return base::fields(
@@ -247,13 +249,14 @@ inline constexpr std::size_t regimes_max = 4;
 inline constexpr std::array<std::string_view, 7> regime_keys{
     "rate", "loss", "corrupt", "duplicate", "delay", "jitter", "order"};
 
-/// Checks their number, names, stays and weights, and that each comes again and again.
+/// Checks the number, names, stays and weights of the regimes, and that each regime recurs.
 [[nodiscard]] base::Result<void> validate(const Regimes& regimes);
 
-/// True if all but their conditions is equal: names, stays, weights, and togetherness.
+/// True if the regimes are equal in everything but their conditions: names, stays, weights, and
+/// are_together.
 [[nodiscard]] bool have_same_course(const Regimes& a, const Regimes& b);
 
-/// Their names, in their order.
+/// Returns the names of the regimes, in their order.
 [[nodiscard]] std::vector<std::string> regime_names(const Regimes& regimes);
 
 /// A setting of a direction: its key, and the member that holds it.
@@ -285,17 +288,17 @@ constexpr void for_each_setting(const Visit& visit)
     slot("regime", &Conditions::regimes, &Patch::regimes);
 }
 
-/// `a` and what `b` sets besides or instead.
+/// Returns the settings of `a` and `b`. If both set a value, that of `b` wins.
 [[nodiscard]] Patch merged(Patch a, const Patch& b);
 
 /// Returns the settings of `conditions` that differ from the default.
 [[nodiscard]] Patch to_patch(const Conditions& conditions);
 
-/// The conditions with what `patch` sets.
+/// Returns the conditions with the settings of `patch`.
 [[nodiscard]] Conditions patched(Conditions conditions, const Patch& patch);
 
-/// Returns the conditions that hold in the regime at `index`, which must be there. They have no
-/// regimes themselves.
+/// Returns the conditions in the regime at `index`, which must exist. The result has no regimes
+/// itself.
 [[nodiscard]] Conditions in_regime(const Conditions& conditions, std::size_t index);
 
 /// Both directions of a path.

@@ -25,10 +25,10 @@ namespace hapnet::emulator {
 //   Datagram        here            it waits for its time in the delay line, or leaves
 //   CapturedPacket  capture/        it passes a socket, as a capture file has it
 
-/// Facts that a port knows of a datagram besides its bytes. No stage of the pipeline sees them.
+/// Facts that a port knows about a datagram besides its bytes. No stage of the pipeline sees them.
 struct Headers {
     /// The length of the envelope before the datagram in its bytes, such as an Ethernet header. The
-    /// envelope is carried along, neither counted nor changed.
+    /// envelope is passed on unchanged and is not counted.
     std::uint8_t envelope_bytes = 0;
     base::IpMarks marks{};
 };
@@ -39,7 +39,7 @@ struct Datagram {
     bool is_copy = false;
     std::uint8_t envelope_bytes = 0; // header at the start of `bytes`: not counted, not changed
     base::IpMarks marks{};           // passed on; the law of a queue may add CE
-    std::uint64_t number = 0; // counts its direction from 0; a copy has its original's number
+    std::uint64_t number = 0; // counts its direction from 0; a copy has the number of its original
     base::TimePoint arrival{};
     base::TimePoint due{};              // earliest time at which it leaves
     std::span<const std::byte> bytes{}; // valid until the datagram has left
@@ -50,17 +50,18 @@ struct Datagram {
 
 class Link;
 
-/// A datagram whose time of leaving is not known yet.
+/// A datagram whose departure time is not known yet.
 struct Queued {
-    /// `due` is when its last bit left the bottleneck. While displaced, it is the time at which the
-    /// datagram would leave on its own.
+    /// Its `due` is the time when its last bit left the bottleneck. While displaced, it is the time
+    /// at which the datagram would leave on its own.
     Datagram datagram;
-    Fate fate;                  // dropped: it only takes time in the bottleneck, its bytes are gone
-    std::size_t line_bytes = 0; // bytes that the bottleneck has to send
-    base::TimePoint begun{};    // when the bottleneck began to send it
-    bool is_marked = false;     // marked by the law of the queue
+    // If dropped, it only takes time in the bottleneck; its bytes are gone.
+    Fate fate;
+    std::size_t line_bytes = 0;         // bytes that the bottleneck has to send
+    base::TimePoint begun{};            // when the bottleneck began to send it
+    bool is_marked = false;             // marked by the law of the queue
     std::optional<DropCause> dropped{}; // cause, if the queue dropped it instead of sending it
-    Link* owner = nullptr; // link that it goes on through; null: the bottleneck's owner
+    Link* owner = nullptr; // link that it continues through; null: the bottleneck's owner
 };
 
 } // namespace hapnet::emulator

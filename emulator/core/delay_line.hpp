@@ -13,22 +13,24 @@
 
 namespace hapnet::emulator {
 
-/// Holds datagrams until they are due. Those due at the same time leave in the order in which they
-/// were pushed. Memory is taken once, at construction.
+/// Holds datagrams until they are due. Of those due at the same time, those of push_sorted() leave
+/// first, and then the others in the order in which they were pushed. Memory is taken once, at
+/// construction.
 class DelayLine {
 public:
     explicit DelayLine(std::size_t datagrams_max);
 
     [[nodiscard]] bool is_full() const { return size() >= datagrams_max_; }
 
-    /// Ensures that it is not full.
+    /// Adds a datagram. Ensures that the line is not full.
     void push(const Datagram& datagram);
 
-    /// The datagram takes the earliest of the times that were pushed here, its own and those of
-    /// others, which is still free when it is its turn: the times are kept and so is the order.
+    /// Adds a datagram to those that leave in the order of their pushes. Each leaves at the
+    /// earliest due time of these datagrams that is still unused when its turn comes. So both the
+    /// set of times and the order are kept.
     void push_sorted(const Datagram& datagram);
 
-    /// The earliest datagram that is due at `now`.
+    /// Takes the earliest datagram that is due at `now`.
     [[nodiscard]] std::optional<Datagram> pop(base::TimePoint now)
     {
         if (!are_in_turn()) return pop_earliest(now);
@@ -36,7 +38,7 @@ public:
         return in_turn_.pop();
     }
 
-    /// The time when the earliest datagram is due; nullopt when the line is empty.
+    /// Returns the time when the earliest datagram is due; nullopt when the line is empty.
     [[nodiscard]] std::optional<base::TimePoint> next_due() const
     {
         if (!are_in_turn()) return earliest_due();
@@ -52,7 +54,7 @@ public:
 private:
     struct HeapEntry {
         Datagram datagram;
-        std::uint64_t rank = 0; // number of its push, among those that went to the heap
+        std::uint64_t rank = 0; // counts the pushes to the heap
     };
     static bool leaves_after(const HeapEntry& a, const HeapEntry& b);
     /// True if the datagrams are due in the order of arrival, as a constant delay leaves them.
@@ -63,7 +65,7 @@ private:
 
     std::size_t datagrams_max_;
     std::uint64_t pushed_ = 0;
-    Ring<Datagram> in_turn_; // due in the order in which they came: a constant delay needs no heap
+    Ring<Datagram> in_turn_;      // due in the order of arrival: a constant delay needs no heap
     std::vector<HeapEntry> heap_; // datagrams due before the last one in in_turn_ when pushed
     Ring<Datagram> sorted_;       // datagrams of push_sorted(), in their order
     std::vector<base::TimePoint> times_; // due times of push_sorted(), a heap

@@ -18,13 +18,13 @@
 
 namespace hapnet::emulator {
 
-/// The bins of a histogram that have something in them: values from low on and below high, in the
-/// unit of the key above them, and how many they are.
+/// The non-empty bins of a histogram: each has its lower bound (included), its upper bound
+/// (excluded), both in the unit of the enclosing key, and its count.
 using Distribution = std::vector<std::array<double, 3>>;
 [[nodiscard]] Distribution distribution_of(const base::DurationHistogram& histogram,
                                            double ns_per_unit);
 
-/// A histogram of times, as statistics tell it.
+/// A histogram of times, as statistics report it.
 struct TimesReport {
     const base::DurationHistogram* of = nullptr;
     std::optional<Distribution> distribution;
@@ -74,7 +74,7 @@ constexpr auto fields_of(base::Tag<ReorderReport>)
                                      "departures back."));
 }
 
-/// The shape of a stream, as statistics tell it.
+/// The shape of a stream, as statistics report it.
 struct StreamShape {
     StreamReport measured;
     std::optional<Distribution> distribution; // distribution of the delays
@@ -133,7 +133,7 @@ constexpr auto fields_of(base::Tag<StreamShape>)
             .left_out_if_none());
 }
 
-/// Share of the time and number of stays of one regime.
+/// The share of the time and the number of stays of one regime.
 struct RegimeReport {
     double share = 0.0;
     std::uint64_t stays = 0;
@@ -147,7 +147,7 @@ constexpr auto fields_of(base::Tag<RegimeReport>)
                             .counter("hapnet_emulator_regime_stays"));
 }
 
-/// The reports of the regimes, by their names.
+/// The reports on the regimes, by their names.
 using RegimeReports = base::Entries<RegimeReport>;
 /// Returns nullopt if there are no regimes.
 [[nodiscard]] std::optional<RegimeReports>
@@ -161,10 +161,11 @@ struct DirectionReport {
     std::uint64_t overflowed = 0;
     std::uint64_t unreachable = 0;
     base::Duration budget{};
-    bool has_distributions = false; // whole distributions, not quantiles alone
+    bool has_distributions = false; // whole distributions as well as quantiles
     std::optional<RegimeReports> regimes{};
 
-    /// The reasons why this direction is not valid; none if it is. See invalid_because().
+    /// Returns the reasons why this direction is not valid; none if it is valid. See
+    /// invalid_because().
     [[nodiscard]] std::vector<std::string> reasons() const;
 
     [[nodiscard]] TimesReport times(const base::DurationHistogram& histogram) const;

@@ -12,7 +12,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// Takes out of `patch` what `later` sets.
+/// Removes from `patch` the settings that `later` sets.
 void strip(Patch& patch, const Patch& later)
 {
     for_each_setting([&](const auto& slot) {
@@ -20,7 +20,7 @@ void strip(Patch& patch, const Patch& later)
     });
 }
 
-/// The settings that `patch` makes, as they are in `conditions`.
+/// Returns the settings that `patch` sets, with their values in `conditions`.
 Patch picked(const Conditions& conditions, const Patch& patch)
 {
     Patch picked;
@@ -42,7 +42,7 @@ Patch common(const Patch& a, const Patch& b, const Conditions& conditions)
 
 using Steps = std::vector<Change>;
 
-/// The first step after `time`.
+/// Returns the first step after `time`.
 Steps::const_iterator after(const Steps& steps, base::Duration time)
 {
     return std::upper_bound(steps.begin(), steps.end(), time,
@@ -64,7 +64,8 @@ bool meets(const Patch& patch, const Patch& later)
     return does;
 }
 
-/// Takes both patches out of an override that other directors may share: they keep theirs.
+/// Removes the settings of both patches from an override. Other directors that share the override
+/// keep theirs.
 void strip(std::shared_ptr<const Director::Override>& one, const Patch& up, const Patch& down)
 {
     if (!meets(one->up, up) && !meets(one->down, down)) return;
@@ -85,7 +86,7 @@ bool sets_nothing(const Director::Override& one)
     return sets_nothing(one.up) && sets_nothing(one.down);
 }
 
-/// True if an override that ends at `until` is over no later than one that ends at `other`.
+/// True if an override that ends at `until` ends no later than one that ends at `other`.
 bool ends_within(std::optional<base::TimePoint> until, std::optional<base::TimePoint> other)
 {
     return !other || (until && *until <= *other);
@@ -113,7 +114,7 @@ Director::Director(std::shared_ptr<const Script> script, base::TimePoint start)
       next_change_{find_next_change()}
 {}
 
-/// Does what has become due since.
+/// Applies everything that has become due since `before`.
 bool Director::change_after(base::TimePoint before)
 {
     const bool has_step = let_later_steps_win(before - begin_);
@@ -182,7 +183,8 @@ void Director::follow(std::shared_ptr<const Script> script, base::TimePoint begi
     if (!update() && !is_the_same) ++generation_;
 }
 
-/// Takes the settings of the steps since `before` out of the overrides. True if there were steps.
+/// Removes the settings of the steps since `before` from the overrides. Returns true if there were
+/// steps.
 bool Director::let_later_steps_win(base::Duration before)
 {
     const auto begin = after(script_->profile().timeline, before);
@@ -212,7 +214,7 @@ std::optional<base::TimePoint> Director::find_next_change() const
 {
     std::optional<base::TimePoint> next;
     if (const auto at = script_->timeline().next_change(position())) next = begin_ + *at;
-    // A step that only repeats what the profile says still ends what was set by hand.
+    // A step that only repeats the profile's value still ends a setting made by hand.
     const Steps& steps = script_->profile().timeline;
     const auto step = after(steps, position());
     if (step != steps.end()) next = base::earlier(next, begin_ + step->time);
@@ -237,7 +239,7 @@ Profile Director::remaining() const
             strip(step.down, by_hand.down);
             if (step.ramp.count() <= 0 || sets_nothing({step.up, step.down, {}})) continue;
         } else if (step.ramp.count() > 0) {
-            // It does not begin at what was set by hand, but at what the profile says.
+            // The ramp does not begin at the value set by hand, but at that of the profile.
             const Path before = script_->timeline().at(step.time);
             Change start{step.time - position(),
                          {},

@@ -19,8 +19,8 @@
 
 namespace hapnet::emulator {
 
-/// Settings from now on, over those of the profile. With `lasting` they end after that time, and
-/// the conditions hold that would hold without them.
+/// Sets settings from now on, which override those of the profile. With `lasting` they end after
+/// that time, and the conditions return to those without these settings.
 struct Set {
     Patch up;
     Patch down;
@@ -35,25 +35,26 @@ struct Apply {
     explicit Apply(Profile profile) : script{std::make_shared<const Script>(std::move(profile))} {}
 };
 
-/// Returns to the profile with which the emulator was started, at the present time of its timeline:
-/// as if no change had ever been made.
+/// Returns to the profile with which the emulator was started, at the present time of its timeline,
+/// as if no change had been made.
 struct Reset {};
 
 using Command = std::variant<Set, Apply, Reset>;
 
-/// Decides which conditions hold when: a profile, its timeline, and settings made by hand over it.
-/// The later of two changes of the same setting wins, whether it is a step of the timeline or made
-/// by hand: a setting made by hand holds until the timeline's next step of that setting, and a ramp
-/// that is under way when it is made has no effect on it.
+/// Decides which conditions are in effect at each time, from a profile, its timeline, and settings
+/// made by hand. The later of two changes of the same setting wins, no matter whether a step of the
+/// timeline or a person made it: a setting made by hand lasts until the timeline's next step of
+/// that setting. A ramp that is in progress at that moment has no effect on the setting.
 ///
 /// Does no I/O and reads no clock: feed it with apply(), call advance() by next_change(), and hand
 /// path() to the links whenever generation() has grown.
 class Director {
 public:
-    /// Settings made by hand that may hold at a time; those that can never show again don't count.
+    /// The greatest number of settings made by hand at one time. Settings that can never take
+    /// effect again do not count.
     static constexpr std::size_t overrides_max = 64;
 
-    /// Settings made by hand, as far as nothing later has taken their place.
+    /// Settings made by hand that no later change has replaced.
     struct Override {
         Patch up;
         Patch down;
@@ -62,35 +63,37 @@ public:
         friend bool operator==(const Override&, const Override&) = default;
     };
 
-    /// The profile's timeline counts from `start`. Its seed is that of the run, and stays.
+    /// The profile's timeline counts from `start`. The director keeps the seed of this profile,
+    /// that of the run.
     Director(Profile profile, base::TimePoint start);
     Director(std::shared_ptr<const Script> script, base::TimePoint start);
 
-    // Defined in director.cpp, so that not every file that uses a Director compiles them.
+    // Both are defined in director.cpp, so that files that use a Director do not compile them.
     ~Director();
     Director(Director&&) noexcept;
     Director& operator=(Director&&) noexcept;
     Director(const Director&);
     Director& operator=(const Director&);
 
-    /// The conditions that hold at the time of the last call.
+    /// Returns the conditions in effect at the time of the last call.
     [[nodiscard]] const Path& path() const { return *path_; }
-    /// The conditions of path(), to be shared with the links. Never null.
+    /// Returns the conditions of path() for sharing with the links. Never null.
     [[nodiscard]] const std::shared_ptr<const Path>& shared_path() const { return path_; }
 
-    /// 1 at first, and one more whenever path() has changed or another profile was applied.
+    /// Returns the generation. It is 1 at first, and grows by one whenever path() has changed or
+    /// another profile was applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
-    /// Why path() changed the last time: a step of the timeline, or a setting made by hand or its
-    /// end. Steps of a ramp follow each other by the millisecond.
+    /// The cause of the last change of path(): a setting made by hand or its end, a step of the
+    /// timeline, or a step of a ramp. Steps of a ramp follow each other by the millisecond.
     enum class Reason : std::uint8_t { hand, step, ramp };
     [[nodiscard]] Reason last_reason() const { return last_reason_; }
 
-    /// The time at which to call advance() again; nullopt when time alone changes nothing.
+    /// Returns the time at which to call advance() again; nullopt when the passage of time changes
+    /// nothing.
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
-    /// Moves on to `now`. Returns true if the conditions have changed. Cheap when next_change() has
-    /// not come.
+    /// Moves on to `now`. Returns true if the conditions have changed. Cheap before next_change().
     bool advance(base::TimePoint now)
     {
         const base::TimePoint before = now_;
@@ -98,33 +101,33 @@ public:
         return base::is_due(next_change_, now_) && change_after(before);
     }
 
-    /// Carries out the command at once. Changes nothing when it is refused. Apply and Reset are
+    /// Carries out the command at once. A refused command changes nothing. Apply and Reset are
     /// never refused.
     base::Result<void> apply(const Command& command, base::TimePoint now);
 
-    /// True if a quick check finds both at the same point. A command to both makes them the same
-    /// again, so it has to be carried out only once. Their times may differ while nothing has
-    /// become due.
+    /// True if a quick check finds both directors in the same state. A command that both receive
+    /// then has the same effect on both, so that it has to be carried out only once. Their times
+    /// may differ while nothing has become due.
     [[nodiscard]] bool is_twin_of(const Director& other) const;
 
-    /// The profile that it follows, with the timeline.
+    /// Returns the profile that the director follows, with the timeline.
     [[nodiscard]] const Script& script() const { return *script_; }
 
     /// The settings made by hand. A later one wins over an earlier one. Never null.
     using Overrides = std::vector<std::shared_ptr<const Override>>;
     [[nodiscard]] const Overrides& overrides() const { return overrides_; }
 
-    /// The time of the last call.
+    /// Returns the time of the last call.
     [[nodiscard]] base::TimePoint now() const { return now_; }
 
-    /// The time since the timeline began.
+    /// Returns the time since the timeline began.
     [[nodiscard]] base::Duration position() const { return now_ - begin_; }
 
-    /// The time since the run began.
+    /// Returns the time since the run began.
     [[nodiscard]] base::Duration elapsed() const { return now_ - start_; }
 
-    /// A profile that, when it is applied now, changes nothing: the conditions that hold and what
-    /// is still to come of the timeline. Only the ends of settings made for a time are not in it.
+    /// Returns a profile that changes nothing when it is applied now: the current conditions and
+    /// the rest of the timeline. It does not include the ends of settings made for a limited time.
     [[nodiscard]] Profile remaining() const;
 
 private:

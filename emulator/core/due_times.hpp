@@ -13,15 +13,15 @@
 
 namespace hapnet::emulator {
 
-/// The due time of each of many places, and the earliest of them: a tournament tree. Places are
-/// marked when they have to be asked again, so that the cost of each turn depends on the number of
-/// changes, not of places.
+/// The due time of each of many places, and the earliest due time, as a tournament tree. A place is
+/// marked when its due time has to be read again, so that the cost of a round depends on the number
+/// of changes instead of the number of places.
 class DueTimes {
 public:
-    /// One of the places, by its number.
+    /// A place, identified by its number.
     class Place {
     public:
-        Place() = default; // belongs to no path: marking it does nothing
+        Place() = default; // a place of no path; marking it has no effect
         Place(DueTimes& all, std::size_t number) : all_{&all}, number_{number} {}
 
         /// Marks this place, because its due time may have changed.
@@ -36,7 +36,7 @@ public:
         std::size_t number_ = 0;
     };
 
-    /// Numbers from 0, the lowest that is free.
+    /// Returns a new place. Its number is the lowest free one, from 0.
     Place add()
     {
         const auto free = std::ranges::find(is_taken_, false);
@@ -53,7 +53,8 @@ public:
         set(number, never);
     }
 
-    /// Asks what has been marked since. `due_of(number)`: when something is due there, if ever.
+    /// Updates the due times of the places that were marked since the last call. `due_of(number)`
+    /// returns the time when something is due there, if ever.
     void refresh(const auto& due_of)
     {
         for (const std::size_t number : marked_) {
@@ -63,14 +64,14 @@ public:
         marked_.clear();
     }
 
-    /// The earliest, after refresh().
+    /// Returns the earliest due time. Call it after refresh().
     [[nodiscard]] std::optional<base::TimePoint> earliest() const
     {
         return tree_[1] == never ? std::nullopt : std::optional{tree_[1]};
     }
 
-    /// `visit(number)` for all where something is due at `now`, by their numbers, after refresh().
-    /// It may mark places.
+    /// Calls `visit(number)` for each place where something is due at `now`, in the order of their
+    /// numbers. Call it after refresh(). `visit` may mark places.
     void each_due(base::TimePoint now, const auto& visit) const
     {
         if (is_due(1, now)) each_due_below(1, now, visit);
@@ -102,7 +103,8 @@ private:
         for (std::size_t i = 0; i < wanted; ++i) set(i, former[i]);
     }
 
-    /// Each node holds the earlier one of the two below it, 2 n and 2 n + 1.
+    /// Sets a due time and updates the nodes above it: each node has the earlier one of the two
+    /// below it, 2 n and 2 n + 1.
     void set(std::size_t number, base::TimePoint due)
     {
         std::size_t node = leaves() + number;
@@ -119,8 +121,8 @@ private:
         return tree_[node] <= now && tree_[node] != never;
     }
 
-    /// Visits what is due below a node that has something due. It calls itself only where both
-    /// halves have: mostly one leaf is due.
+    /// Visits what is due below a node that has something due. It recurses only where both halves
+    /// have something due; mostly only one leaf is due.
     void each_due_below(std::size_t node, base::TimePoint now, const auto& visit) const
     {
         while (node < leaves()) {
@@ -138,7 +140,8 @@ private:
 
     std::vector<base::TimePoint> tree_{never, never}; // the root is [1], the leaves the last half
     std::vector<bool> is_taken_;
-    std::vector<char> is_marked_; // read and written for each datagram: bytes, not bits
+    // Bytes instead of bits, because each datagram reads and writes them
+    std::vector<char> is_marked_;
     std::vector<std::size_t> marked_;
 };
 

@@ -9,7 +9,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// One way of a path that others may share.
+/// Returns the conditions of one direction of a path. They share the ownership of the path.
 std::shared_ptr<const Conditions> way_of(const std::shared_ptr<const Path>& path,
                                          Direction direction)
 {
@@ -53,7 +53,7 @@ EmulatedPath::EmulatedPath(Director director, const Setup& setup, const std::sha
 
 base::Result<void> EmulatedPath::apply(const Command& command, base::TimePoint now, ChangeCause by)
 {
-    advance(now); // changes of the timeline are noted on their own
+    advance(now); // logs the changes of the timeline separately
     const auto generation = director_.generation();
     auto done = director_.apply(command, now);
     if (director_.generation() != generation) enact(now, by);

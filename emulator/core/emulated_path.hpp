@@ -22,9 +22,9 @@
 namespace hapnet::emulator {
 
 /// Both directions of an emulated path: two links, and the director that decides which conditions
-/// hold on them. Does no I/O and reads no clock: feed it with on_packet(), drain it with poll(),
-/// and call advance() by next_deadline(). Conditions that change in between hold from the first
-/// datagram that arrives after their time.
+/// are in effect on them. Does no I/O and reads no clock: feed it with on_packet(), drain it with
+/// poll(), and call advance() by next_deadline(). Conditions that change in between affect the
+/// first datagram that arrives after the time of the change, and all later ones.
 class EmulatedPath {
 public:
     struct Setup {
@@ -42,10 +42,11 @@ public:
     EmulatedPath(const Profile& profile, const Setup& setup)
         : EmulatedPath{Director{profile, setup.start}, setup}
     {}
-    /// Goes on where the director stands.
+    /// Makes a path that continues from the state of the director.
     EmulatedPath(Director director, const Setup& setup);
 
-    /// Follows the timeline up to `now`. Cheap when nothing changes. Returns whether something has.
+    /// Follows the timeline up to `now`. Cheap when nothing changes. Returns true if something has
+    /// changed.
     bool advance(base::TimePoint now)
     {
         const bool has_changed = director_.advance(now);
@@ -63,32 +64,32 @@ public:
         return link_of(direction).on_packet(bytes, arrival, has_destination, headers);
     }
 
-    /// A datagram of a direction that is due at `now`, the earliest first.
+    /// Returns the earliest datagram of a direction that is due at `now`.
     [[nodiscard]] std::optional<Datagram> poll(Direction direction, base::TimePoint now)
     {
         place_.mark();
         return link_of(direction).poll(now);
     }
 
-    /// The datagram left at `at`.
+    /// Notes that the datagram left at `at`.
     void on_sent(Direction direction, const Datagram& datagram, base::TimePoint at)
     {
         link_of(direction).on_sent(datagram, at);
     }
 
-    /// The datagram could not be sent.
+    /// Notes that the datagram could not be sent.
     void on_failed(Direction direction, const Datagram& datagram, DropCause cause)
     {
         link_of(direction).on_failed(datagram, cause);
     }
 
-    /// The time when the next datagram is due; nullopt when none is in flight.
+    /// Returns the time when the next datagram is due; nullopt when none is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_due() const
     {
         return base::earlier(up_.next_deadline(), down_.next_deadline());
     }
 
-    /// The time when a datagram is due or the conditions may change.
+    /// Returns the time when a datagram is due or the conditions may change.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const
     {
         return base::earlier(next_due(), director_.next_change());
@@ -98,13 +99,13 @@ public:
     base::Result<void> apply(const Command& command, base::TimePoint now,
                              ChangeCause by = ChangeCause::hand);
 
-    /// Makes the conditions follow `director` from now on: a copy of this path's own director that
-    /// has gone on elsewhere.
+    /// Makes the conditions follow `director` from now on. `director` is a copy of this path's own
+    /// director that has been advanced elsewhere.
     void follow(const Director& director, base::TimePoint now, ChangeCause by);
-    /// As above, for a director that has only followed its timeline.
+    /// Does the same for a director that has only followed its timeline.
     void follow(const Director& director, base::TimePoint now);
 
-    /// Sends its datagrams through the bottlenecks of another path; see
+    /// Sends the datagrams of this path through the bottlenecks of another path; see
     /// Link::share_bottleneck_of().
     void share_bottlenecks_of(EmulatedPath& other)
     {
@@ -112,18 +113,18 @@ public:
         down_.share_bottleneck_of(other.down_);
     }
 
-    /// Sends packets of a flow to the path of that flow from now on.
+    /// Sets the flows of this path. From now on, each packet of a flow takes the path of that flow.
     void branch(std::unique_ptr<Branches> branches) { branches_ = std::move(branches); }
-    /// The flows beside it; null: there are none.
+    /// Returns the flows beside this path; null: there are none.
     [[nodiscard]] Branches* branches() const { return branches_.get(); }
 
     /// See Link::take_pulse().
     [[nodiscard]] Pulse take_pulse(Direction direction) { return link_of(direction).take_pulse(); }
 
     [[nodiscard]] const Director& director() const { return director_; }
-    /// Its number among several; see Paths::each_due().
+    /// Returns the number of this path among several; see Paths::each_due().
     [[nodiscard]] std::size_t number() const { return place_.number(); }
-    /// The changes of the conditions since the start.
+    /// Returns the changes of the conditions since the start.
     [[nodiscard]] const ChangeLog& changes() const { return changes_; }
     [[nodiscard]] const Link& link(Direction direction) const
     {
@@ -138,7 +139,7 @@ private:
         return direction == Direction::up ? up_ : down_;
     }
     void enact_timeline(base::TimePoint now);
-    /// Hands the director's conditions to the links, and notes the change.
+    /// Hands the director's conditions to the links, and logs the change.
     void enact(base::TimePoint now, ChangeCause by);
 
     Director director_;

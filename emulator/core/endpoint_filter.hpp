@@ -20,20 +20,21 @@ enum class Sender : std::uint8_t {
 
 /// Decides which endpoint may use one side of the emulator, and where that side's datagrams go.
 ///
-/// Either it is configured and never changes, or the first sender is adopted. An adopted sender
-/// that has been silent for `silence_max` gives way to the next one, so that a program which died
-/// can be started again on another port; as long as it sends, no other takes its place.
+/// The endpoint is either configured and never changes, or it is the first sender, which is
+/// adopted. When an adopted sender has been silent for `silence_max`, the next sender replaces it,
+/// so that a program that died can be started again on another port. While it sends, no other
+/// sender replaces it.
 template <typename Address>
 class EndpointFilter {
 public:
     static constexpr base::Duration silence_max = std::chrono::seconds{1};
 
-    /// Without an address the filter adopts one.
+    /// Without an address the filter adopts the first sender.
     explicit EndpointFilter(std::optional<Address> configured)
         : address_{std::move(configured)}, adopts_{!address_}
     {}
 
-    /// Judges the sender of a datagram that came from `from` and arrived at `at`. May adopt it.
+    /// Judges the sender of a datagram that came from `from` and arrived at `at`, and may adopt it.
     [[nodiscard]] Sender classify(const Address& from, base::TimePoint at)
     {
         const bool known = address_ == from;
@@ -46,13 +47,13 @@ public:
         return Sender::adopted;
     }
 
-    /// The address; nullopt until an endpoint is adopted.
+    /// Returns the address; nullopt until an endpoint is adopted.
     [[nodiscard]] const std::optional<Address>& address() const { return address_; }
 
-    /// The time when its last datagram came.
+    /// Returns the arrival time of its last datagram.
     [[nodiscard]] base::TimePoint heard_at() const { return heard_; }
 
-    /// True if another sender may take the place of a silent one.
+    /// True if another sender may replace a silent one.
     [[nodiscard]] bool adopts() const { return adopts_; }
 
 private:

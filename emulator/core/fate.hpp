@@ -13,9 +13,9 @@
 
 namespace hapnet::emulator {
 
-/// Why a datagram that was received did not leave.
+/// The reason why a datagram that was received did not leave.
 enum class DropCause : std::uint8_t {
-    // Configured losses, by the law that took the datagram.
+    // Configured losses, by the law that dropped the datagram.
     random_loss,
     block_loss,
     periodic_loss,
@@ -31,7 +31,7 @@ enum class DropCause : std::uint8_t {
     rate_queue_full,  // no room in the queue of the configured rate
     rate_queue_law,   // dropped by the law of that queue, such as CoDel
     replay_ended,     // more datagrams than the fates that are replayed
-    queue_full,       // the emulator's own bound: too much in flight
+    queue_full,       // the emulator's own limit of datagrams in flight
     no_destination,   // the other side was not known yet
     no_route,         // the system had no route to the other side
     refused,          // the other machine answered that no program listens there
@@ -40,7 +40,7 @@ enum class DropCause : std::uint8_t {
     send_failed,      // the system refused to send for another reason
 };
 
-/// "random_loss": the key in statistics.
+/// Names each cause as the key in statistics does: "random_loss".
 constexpr auto names_of(base::Tag<DropCause>)
 {
     return base::names("random_loss", "block_loss", "periodic_loss", "burst_loss",
@@ -58,8 +58,8 @@ inline constexpr auto drop_causes = [] {
     return all;
 }();
 
-/// The bits of a datagram that are inverted: each number, modulo the datagram's bits, is a place.
-/// So a fate does not depend on how long the datagram is.
+/// The bits of a datagram that are inverted: each number, modulo the number of bits of the
+/// datagram, is a position. So a fate does not depend on the length of the datagram.
 struct Flips {
     static constexpr std::size_t most = 8;
 
@@ -69,8 +69,8 @@ struct Flips {
     friend bool operator==(const Flips&, const Flips&) = default;
 };
 
-/// The distance by which a datagram leaves behind its turn: after this number of later ones, or
-/// later by this time.
+/// The distance by which a datagram leaves later than its turn: after this number of later
+/// datagrams, or by this time.
 struct Displacement {
     std::uint32_t places = 0;
     base::Duration time{};
@@ -98,13 +98,13 @@ constexpr auto names_of(base::Tag<LossState>)
 /// The most laws of loss that one direction may have.
 inline constexpr std::size_t loss_laws_max = 8;
 
-/// The fate of a datagram: delivered, or dropped for a cause. A pure function of the seed, the
-/// direction, the conditions and the numbers of the datagrams, and for laws that depend on time of
-/// the arrivals; what the queues make of it is not part of it. A datagram that all laws deliver is
-/// still dropped while no program is on the other side: no_destination.
+/// The fate of a datagram: delivered, or dropped for a cause. It is a pure function of the seed,
+/// the direction, the conditions and the numbers of the datagrams, and for laws that depend on time
+/// also of the arrivals. The effects of the queues are not part of it. A datagram that all laws
+/// deliver is still dropped while the other side is unknown: no_destination.
 struct Fate {
     std::optional<DropCause> drop{}; // nullopt: the datagram is delivered
-    std::uint8_t regime = 0;         // regime that it met, counted from 1; 0: no regimes
+    std::uint8_t regime = 0;         // regime at its arrival, counted from 1; 0: no regimes
     // Properties of a delivered datagram. A dropped one keeps these defaults.
     base::Duration delay{};                     // without queues and the order policy; >= 0
     std::optional<base::Duration> copy_after{}; // a copy leaves this long after the original
@@ -113,14 +113,14 @@ struct Fate {
 
     std::array<LossState, loss_laws_max> states{}; // one for each law of loss, in their order
 
-    /// True if the conditions, or a replay, drop it.
+    /// True if the conditions or a replay drop it.
     [[nodiscard]] bool is_lost() const { return drop && *drop != DropCause::no_destination; }
 
     friend bool operator==(const Fate&, const Fate&) = default;
 };
 
-/// Returns the fate of a datagram that has no destination: the first cause counts, and the regime
-/// and the states of the laws stay.
+/// Returns the fate of a datagram that has no destination. An earlier cause of a drop stays, and so
+/// do the regime and the states of the laws.
 [[nodiscard]] inline Fate without_destination(const Fate& fate)
 {
     if (fate.drop) return fate;

@@ -29,7 +29,7 @@ struct DisplacementFormat {
     [[nodiscard]] std::string describe() const { return TimeOrCount{}.describe(); }
 };
 
-/// Interpolates for ramps, between places or between times.
+/// Interpolates for ramps, between two numbers of places or between two times.
 [[nodiscard]] std::optional<Displacement> between(const Displacement& a, const Displacement& b,
                                                   double progress);
 

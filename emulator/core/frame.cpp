@@ -31,8 +31,8 @@ constexpr std::size_t ether_type_at = 12;
 constexpr std::size_t ipv6_header_bytes = 40;
 constexpr std::size_t ipv4_header_bytes_min = 20;
 
-/// Router and neighbour solicitations and advertisements, and redirects (RFC 4861). They are the
-/// first header behind that of IPv6.
+/// True for router and neighbour solicitations and advertisements, and redirects (RFC 4861). They
+/// are the first header after that of IPv6.
 bool is_neighbour_discovery(std::span<const std::byte> packet)
 {
     constexpr std::size_t next_header_at = 6;
@@ -72,7 +72,7 @@ base::IpMarks marks_of(std::uint16_t type, std::span<const std::byte> packet)
     return {static_cast<std::uint8_t>(at16(packet, 0) >> 4), at8(packet, 7)};
 }
 
-/// A hash that goes on (FNV-1a).
+/// An incremental hash (FNV-1a).
 class FlowHash {
 public:
     void add(std::span<const std::byte> bytes)
@@ -81,7 +81,7 @@ public:
             hash_ = (hash_ ^ std::to_integer<std::uint32_t>(byte)) * 16'777'619U;
         }
     }
-    /// Spreads all bits over all others, because flows are told apart by some of them.
+    /// Mixes all bits, because only some of them distinguish flows.
     [[nodiscard]] std::uint32_t value() const
     {
         std::uint32_t mixed = hash_ ^ hash_ >> 16;
@@ -99,7 +99,8 @@ constexpr unsigned ipv4_offset_and_more = 0x3fff; // nonzero: the packet is a fr
 
 bool has_ports(std::uint8_t protocol) { return protocol == ip_tcp || protocol == ip_udp; }
 
-/// The sum of 16-bit words whose complement is the checksum of IP and its protocols (RFC 1071).
+/// Returns the sum of 16-bit words whose complement is the checksum of IP and its protocols (RFC
+/// 1071).
 std::uint64_t sum_of(std::span<const std::byte> bytes)
 {
     std::uint64_t sum = 0;
@@ -115,7 +116,7 @@ std::uint16_t folded(std::uint64_t sum)
     return static_cast<std::uint16_t>(~sum & 0xffff);
 }
 
-/// The payload behind an IP header.
+/// The payload after an IP header.
 struct Segment {
     std::uint8_t protocol = 0;
     std::span<std::byte> bytes{};
@@ -164,7 +165,7 @@ void fix_ipv4(std::span<std::byte> packet)
                  .is_v4 = true});
 }
 
-/// The checksum of a packet with an extension header stays as it is.
+/// Fixes the checksum of an IPv6 packet, unless the packet has an extension header.
 void fix_ipv6(std::span<std::byte> packet)
 {
     if (packet.size() < ipv6_header_bytes || at8(packet, 0) >> 4 != 6) return;
@@ -268,7 +269,7 @@ bool says_port_unreachable(const Frame& frame, std::span<const std::byte> bytes)
     return byte_at(9) == icmp && says(std::size_t{4} * (byte_at(0) & 0xfU), 3, 3);
 }
 
-/// The checksum is brought up to date by what has changed (RFC 1624, equation 3).
+/// Updates the checksum incrementally (RFC 1624, equation 3).
 void mark_congestion(std::span<std::byte> frame)
 {
     const std::size_t header = read_frame(frame).header_bytes;

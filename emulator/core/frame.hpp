@@ -21,7 +21,7 @@ enum class FrameKind : std::uint8_t {
 
 using MacAddress = std::array<std::byte, 6>;
 
-/// An Ethernet frame, without its checksum, as far as it has to be known to pass it on.
+/// The properties of an Ethernet frame, without its checksum, that are needed to pass it on.
 struct Frame {
     FrameKind kind = FrameKind::other;
     std::uint8_t header_bytes = 0; // Ethernet header, with VLAN tags
@@ -32,30 +32,33 @@ struct Frame {
     static constexpr std::size_t vlan_tag_bytes = 4;
 };
 
-/// Reads any bytes; those that are too short for Ethernet, or that have more than two VLAN tags,
+/// Reads any bytes. Bytes that are too short for Ethernet, or that have more than two VLAN tags,
 /// are of the kind `other`.
 [[nodiscard]] Frame read_frame(std::span<const std::byte> bytes);
 
-/// The machine that a frame is for; nullopt: it is for a group, or it is too short for Ethernet.
+/// Returns the destination address of a frame; nullopt: the frame is for a group, or too short for
+/// Ethernet.
 [[nodiscard]] std::optional<MacAddress> destination_of(std::span<const std::byte> frame);
 
-/// The IP packet that a frame carries, without what fills up a short frame; empty: it carries none.
+/// Returns the IP packet that a frame carries, without the padding of a short frame; empty: the
+/// frame carries none.
 [[nodiscard]] std::span<const std::byte> ip_packet_of(std::span<const std::byte> frame);
 
-/// Tells the flows of a frame's IP packets apart: a hash of addresses, protocol and ports.
-/// Fragments have no ports, so that all of a packet belong together; what is not IP is one flow.
+/// Returns a hash of addresses, protocol and ports, which tells the flows of IP packets apart.
+/// Fragments have no ports, so that all fragments of a packet belong together. Everything that is
+/// not IP is one flow.
 [[nodiscard]] std::uint32_t flow_of(std::span<const std::byte> frame);
 
 /// True for a frame with the message "port unreachable" of ICMP or ICMPv6 (RFC 792, RFC 4443): no
-/// program listens where a datagram went.
+/// program listens at the destination of a datagram.
 [[nodiscard]] bool says_port_unreachable(const Frame& frame, std::span<const std::byte> bytes);
 
-/// Marks the IP packet of a frame as having experienced congestion (RFC 3168), with the checksum
-/// that belongs to it. Ensures that it has marks.
+/// Marks the IP packet of a frame as having experienced congestion (RFC 3168), and updates the
+/// checksum. Ensures that the frame has marks.
 void mark_congestion(std::span<std::byte> frame);
 
 /// Recomputes the checksums of IPv4, TCP, UDP, ICMP and ICMPv6 where the frame has the whole
-/// packet: no fragment, and no header that claims more bytes than there are. A UDP datagram over
+/// packet: it is no fragment, and no header claims more bytes than there are. A UDP datagram over
 /// IPv4 without a checksum stays without.
 void fix_checksums(std::span<std::byte> frame);
 

@@ -20,8 +20,8 @@ namespace {
 constexpr base::Duration displaced_for_max = std::chrono::seconds{1};
 constexpr std::size_t displaced_max = 1024;
 
-/// Inverts the bits that `flips` names. An empty datagram has none and stays as it is; two flips
-/// of one place undo each other.
+/// Inverts the bits that `flips` selects. An empty datagram has none and stays unchanged. Two flips
+/// of one bit cancel each other.
 void apply(const Flips& flips, std::span<std::byte> bytes)
 {
     if (bytes.empty()) return;
@@ -31,7 +31,8 @@ void apply(const Flips& flips, std::span<std::byte> bytes)
     }
 }
 
-/// A datagram without an envelope is of its path's only flow.
+/// Returns the flow of a datagram. A datagram without an envelope belongs to the only flow of its
+/// path.
 std::uint32_t flow_in(const Datagram& datagram)
 {
     return datagram.envelope_bytes > 0 ? flow_of(datagram.bytes) : 0;
@@ -107,8 +108,9 @@ Fate Link::fate_of(const Packet& packet)
     return setup_.replay ? setup_.replay->on_packet(packet) : pipeline_.on_packet(packet);
 }
 
-/// Drops it if the queue of the rate does not take it. What will be lost behind the bottleneck
-/// takes its time there all the same; what is too large for the path never comes to it.
+/// Drops the datagram if the queue of the rate does not accept it. A datagram that will be lost
+/// after the bottleneck still takes its time there. One that is too large for the path never
+/// reaches it.
 void Link::refuse_or_pass(Datagram& datagram, std::uint32_t flow, Admission& admission)
 {
     const base::IpMarks before = datagram.marks;
@@ -142,7 +144,7 @@ bool Link::passes_untouched(const Fate& fate) const
            line_.size() == 0 && displaced_.empty();
 }
 
-/// Its bytes are ours afterwards, if there was room for it.
+/// Stores the bytes of the datagram in the slab and holds it. Returns false if there was no room.
 bool Link::hold(Datagram& datagram, std::uint32_t flow, const Fate& fate)
 {
     const auto stored = store(datagram);
@@ -159,7 +161,7 @@ bool Link::hold(Datagram& datagram, std::uint32_t flow, const Fate& fate)
     return true;
 }
 
-/// Gives the datagram a copy of its bytes that is ours, and returns it.
+/// Gives the datagram a copy of its bytes in the slab, and returns the copy.
 std::optional<std::span<std::byte>> Link::store(Datagram& datagram)
 {
     if (held_datagrams_ >= setup_.limits.datagrams_max) return std::nullopt;
@@ -177,7 +179,7 @@ std::optional<std::span<std::byte>> Link::store(Datagram& datagram)
     return stored->bytes;
 }
 
-/// The datagram has left, or will not leave.
+/// Frees the bytes of a datagram that has left, or will not leave.
 void Link::release(const Datagram& datagram)
 {
     --statistics_.in_flight;
@@ -186,8 +188,8 @@ void Link::release(const Datagram& datagram)
     held_bytes_ -= slab_->release(datagram.slot);
 }
 
-/// Finds the time at which a datagram is to leave that was ready for its delay when it was due, and
-/// makes that its due time.
+/// Computes when a datagram is to leave. Its `due` must be the time when its delay begins, and is
+/// then set to the result.
 void Link::schedule(Datagram& datagram, const Fate& fate)
 {
     datagram.due += fate.delay;
@@ -231,7 +233,7 @@ void Link::put(const Datagram& datagram, Order order)
     }
 }
 
-/// Lets those follow that waited for the datagram `scheduled`, which leaves at `due`.
+/// Schedules the displaced datagrams that waited for datagram `scheduled`, which leaves at `due`.
 void Link::release_displaced(std::uint64_t scheduled, base::TimePoint due)
 {
     std::erase_if(displaced_, [&](const Queued& waiting) {
@@ -249,7 +251,8 @@ std::optional<Datagram> Link::poll(base::TimePoint now)
     return line_.pop(now);
 }
 
-/// Moves on what has left the bottleneck by `now`, and what has waited long enough to be overtaken.
+/// Passes on the datagrams that have left the bottleneck by `now`, and those that have waited long
+/// enough to be overtaken.
 void Link::move_on(base::TimePoint now)
 {
     (through_ == nullptr ? *this : *through_).empty_bottleneck(now);
@@ -264,7 +267,8 @@ void Link::move_on(base::TimePoint now)
     });
 }
 
-/// The rate of the bottleneck changes when a regime does, whatever arrives.
+/// Passes on the datagrams that have left the bottleneck by `now`. The rate changes when a regime
+/// does, whether or not datagrams arrive.
 void Link::empty_bottleneck(base::TimePoint now)
 {
     if (rates_) switch_rates(now);
@@ -281,7 +285,7 @@ void Link::switch_rates(base::TimePoint now)
     }
 }
 
-/// Returns the rate of the regime that holds, or the link's own if the regime sets none.
+/// Returns the rate of the current regime, or the link's own rate if the regime sets none.
 const Rate& Link::rate_now() const
 {
     if (!rates_) return conditions_->rate;
@@ -289,7 +293,7 @@ const Rate& Link::rate_now() const
     return sets.rate ? *sets.rate : conditions_->rate;
 }
 
-/// Begins or ends to watch the regimes for their rates.
+/// Starts or stops watching the regimes for their rates.
 void Link::follow_rates()
 {
     const auto sets_rate = [](const Regime& regime) { return regime.own.rate.has_value(); };
@@ -306,7 +310,7 @@ Order Link::order_in_regime(std::uint8_t regime) const
     return all[regime - 1].own.order.value_or(conditions_->order);
 }
 
-/// Each goes on through the link that it came from.
+/// Passes on the datagrams that have left the bottleneck. Each continues through its own link.
 void Link::pass_on(base::TimePoint now)
 {
     while (const auto passed = bottleneck_->pop(now)) {
@@ -319,7 +323,7 @@ void Link::pass_on(base::TimePoint now)
     }
 }
 
-/// It has left the bottleneck, or its queue has dropped it.
+/// Handles a datagram that has left the bottleneck, or that its queue has dropped.
 void Link::on_passed(const Queued& passed)
 {
     if (!passed.dropped) {
@@ -384,7 +388,8 @@ void Link::note_drop(DropCause cause, base::TimePoint at)
 
 void Link::share(std::shared_ptr<const Conditions> conditions, base::TimePoint now)
 {
-    // A change is stamped by what arrives on either side: it may come after a later arrival here.
+    // A change has the time of the last arrival on either side, so it may be later than an arrival
+    // here that comes after it.
     const auto at = std::max(now, last_arrival_);
     advance(at);
     const bool are_new = conditions->regimes != conditions_->regimes;

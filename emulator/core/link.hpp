@@ -36,14 +36,14 @@ struct Admission {
     std::uint64_t number = 0;
     Fate fate;                     // the fate as it was drawn, or replayed
     std::optional<DropCause> drop; // the cause in `fate`, or why a queue refused it
-    /// The datagram itself when nothing holds it: no delay, no queue. Send it before
-    /// anything that is polled from now on.
+    /// The datagram itself when nothing holds it: no delay, no queue. Send it before any datagram
+    /// that is polled later.
     std::optional<Datagram> departure;
 };
 
 /// One direction of an emulated path. Does no I/O and reads no clock: feed it with on_packet(),
-/// drain it with poll(), and call again by next_deadline(). All memory is taken at construction;
-/// what is still in flight at the end stays in the slab.
+/// drain it with poll(), and call poll() again by next_deadline(). All memory is taken at
+/// construction. Datagrams that are still in flight at the end stay in the slab.
 class Link {
 public:
     struct Setup {
@@ -59,7 +59,7 @@ public:
     };
 
     explicit Link(const Conditions& conditions, const Setup& setup);
-    /// As above; several links may share `conditions`.
+    /// Makes a link as above. Several links may share `conditions`.
     Link(std::shared_ptr<const Conditions> conditions, const Setup& setup);
     Link(Link&&) noexcept;
     Link& operator=(Link&&) noexcept;
@@ -67,50 +67,51 @@ public:
     Link& operator=(const Link&) = delete;
     ~Link();
 
-    /// Takes the next datagram of this direction, which arrived at `arrival`, and says what is to
-    /// become of it. A queue or Order::keep may make it leave later than its fate says.
-    /// Without a destination it is dropped, after the laws have judged it.
+    /// Takes the next datagram of this direction, which arrived at `arrival`, and returns its
+    /// outcome. A queue or Order::keep may make it leave later than its fate says. Without a
+    /// destination it is dropped, after the laws have judged it.
     Admission on_packet(std::span<const std::byte> bytes, base::TimePoint arrival,
                         bool has_destination = true, const Headers& headers = {});
 
-    /// A datagram that is due at `now`, the earliest first; nullopt when there is none. It comes
-    /// back through on_sent() or on_failed(), once; until then it counts as in flight.
+    /// Returns the earliest datagram that is due at `now`; nullopt when there is none. Report each
+    /// one exactly once through on_sent() or on_failed(). Until then it counts as in flight.
     [[nodiscard]] std::optional<Datagram> poll(base::TimePoint now);
 
-    /// The time at which to call poll() again; nullopt when nothing is in flight.
+    /// Returns the time at which to call poll() again; nullopt when nothing is in flight.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const;
 
-    /// The datagram left at `at`.
+    /// Notes that the datagram left at `at`.
     void on_sent(const Datagram& datagram, base::TimePoint at);
 
-    /// The datagram could not be sent.
+    /// Notes that the datagram could not be sent.
     void on_failed(const Datagram& datagram, DropCause cause);
 
-    /// Other conditions for what arrives from now on; what is scheduled keeps its time, and what
-    /// is being sent at the old rate goes on at the new one from `now`.
+    /// Changes the conditions for datagrams that arrive from now on. Scheduled datagrams keep their
+    /// times. A datagram that is being sent at the old rate continues at the new one from `now`.
     void change(const Conditions& conditions, base::TimePoint now)
     {
         share(std::make_shared<const Conditions>(conditions), now);
     }
-    /// As change(), with conditions that other links also have. Not null.
+    /// Does the same as change(), with conditions that other links also have. Not null.
     void share(std::shared_ptr<const Conditions> conditions, base::TimePoint now);
 
-    /// Sends its datagrams from now on through the bottleneck and the queue of another link of the
-    /// same direction, and afterwards on through this one. Among all links that share them, the
-    /// earliest arrival comes first. Ensures that this link has no rate of its own. The other stays
-    /// where it is, and outlives what is in flight here.
+    /// Sends the datagrams of this link from now on through the bottleneck and the queue of another
+    /// link of the same direction, and then on through this one. Among all links that share them,
+    /// the earliest arrival comes first. Ensures that this link has no rate of its own. The other
+    /// link must not move, and must outlive what is in flight here.
     void share_bottleneck_of(Link& other);
 
     [[nodiscard]] const Conditions& conditions() const { return *conditions_; }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
     [[nodiscard]] const StreamStatistics& stream_statistics() const { return stream_statistics_; }
-    /// Time and stays of each regime until this time since the start; empty: there are none.
+    /// Returns the time and the stays of each regime until this time since the start; empty: there
+    /// are none.
     [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const
     {
         return pipeline_.regime_course(until);
     }
-    /// Returns the departures since the last call. The first call begins to count, so that a link
-    /// costs no more while no viewer is there.
+    /// Returns the departures since the last call. Counting begins with the first call, so that a
+    /// link has no extra cost while there is no viewer.
     [[nodiscard]] Pulse take_pulse() { return std::exchange(pulse_, Pulse{}).value_or(Pulse{}); }
 
 private:

@@ -25,7 +25,7 @@ struct Stretch {
     void add(const Stretch& later);
 };
 
-/// A stretch as statistics tell it.
+/// A stretch as statistics report it.
 struct StretchReport {
     base::Duration from{}; // time since the start of the run
     base::Duration length{};
@@ -61,8 +61,8 @@ constexpr auto fields_of(base::Tag<StretchReport>)
             "it sent nothing."));
 }
 
-/// A run in stretches of equal length, in memory that is taken at construction. A run that outgrows
-/// them has two of them made one, so that all are twice as long.
+/// Divides a run into stretches of equal length, in memory that is taken at construction. When a
+/// run outgrows them, two neighbours become one, so that all stretches are twice as long.
 class OverTime {
 public:
     static constexpr std::size_t stretches_max = 256;
@@ -70,14 +70,14 @@ public:
 
     explicit OverTime(base::TimePoint start = {});
 
-    /// The stretch of that time; what was before the start belongs to the first.
+    /// Returns the stretch of that time. Times before the start belong to the first stretch.
     [[nodiscard]] Stretch& at(base::TimePoint time)
     {
         if (time < begin_ || time >= end_) move_to(time);
         return stretches_[current_];
     }
 
-    /// The stretches from the start to the latest time that was asked for.
+    /// Returns the stretches from the start to the latest time that was asked for.
     [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
     [[nodiscard]] base::Duration length() const { return length_; }
     [[nodiscard]] std::vector<StretchReport> report() const;

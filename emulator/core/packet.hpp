@@ -9,11 +9,12 @@
 
 namespace hapnet::emulator {
 
-/// Facts of a datagram that an impairment may use.
+/// Facts about a datagram that an impairment may use.
 struct Packet {
     std::uint64_t number = 0; // counts the arrivals in its direction, from 0
     std::size_t bytes = 0;    // payload bytes
-    base::Duration at{};      // arrival since the run began; never less than that before
+    // Arrival since the run began; never earlier than the previous arrival
+    base::Duration at{};
 };
 
 } // namespace hapnet::emulator

@@ -45,7 +45,8 @@ std::optional<Peers> parse_peers(std::string_view text)
     return peers;
 }
 
-/// Letters, digits, '-' and '_', with a letter first, and no word that a key may begin with.
+/// True for letters, digits, '-' and '_', with a letter first, if it is no word with which a key
+/// may begin.
 bool is_word(std::string_view text)
 {
     constexpr std::size_t longest = 32;
@@ -155,8 +156,8 @@ base::Result<std::string> parse_link_name(std::string_view text)
 
 namespace {
 
-/// "flow.voice.up", or the same of one path: "client.3.flow.voice", "2-1.flow.voice". `flow` may
-/// end with a direction, unless the path says it.
+/// Parses "flow.voice.up", or a flow on one path: "client.3.flow.voice", "2-1.flow.voice". `flow`
+/// may end with a direction, unless `path` determines it.
 std::optional<Way> way_of_flow(std::string_view path, std::string_view flow)
 {
     const auto of = path.empty() ? Way{} : parse_way(path).value_or(Way{});

@@ -32,21 +32,23 @@ struct PathParts {
 };
 [[nodiscard]] PathParts parts_of(std::string_view name);
 
-/// "client.3" and "voice" are "client.3.flow.voice"; without a flow, the path itself.
+/// Returns the name of a flow on a path: "client.3" and "voice" give "client.3.flow.voice". Without
+/// a flow it is the name of the path.
 [[nodiscard]] std::string flow_path(std::string_view path, std::string_view flow);
 
-/// Returns the name of the settings for all paths that also hold for this one: "flow.voice", or ""
-/// for a path that is no flow.
+/// Returns the name under which settings of many paths are stored that also apply to this one:
+/// "flow.voice", or "" for a path that is no flow.
 [[nodiscard]] std::string_view common_name(std::string_view name);
 
 /// Returns the name of a way, one direction of a path, in the keys of settings.
 [[nodiscard]] std::string way_name(std::string_view path, Direction direction);
 
-/// Returns the beginning of the names of a way's random streams: with '/' instead of '.',
+/// Returns the prefix of the names of a way's random streams. It has '/' instead of '.':
 /// "client/3/up".
 [[nodiscard]] std::string stream_name(std::string_view path, Direction direction);
 
-/// As stream_name(), for streams that both directions share: "both", "client/3/both", "1-2/both".
+/// Does the same as stream_name() for streams that both directions share: "both", "client/3/both",
+/// "1-2/both".
 [[nodiscard]] std::string stream_name_of_both(std::string_view path);
 
 /// Describes a way for people: "up: from A to B", "1-2: from 1 to 2", "2-1: from 2 to 1", "wan.up",
@@ -56,7 +58,7 @@ struct PathParts {
 /// True if the path is named after two peers, such as "1-2".
 [[nodiscard]] bool is_pair(std::string_view path);
 
-/// A name as --link takes it: "1-2" with the lower number first, or a word.
+/// Reads a name as --link accepts it: "1-2" with the lower number first, or a word.
 [[nodiscard]] base::Result<std::string> parse_link_name(std::string_view text);
 
 /// One way of a path, or both. An empty `path` means all paths.
@@ -67,23 +69,23 @@ struct Way {
     friend bool operator==(const Way&, const Way&) = default;
 };
 /// Parses the beginning of a key: "", "all", "both", "up", "1-2", "wan", "wan.up", "client.3.down",
-/// "flow.voice.up"; nullopt when it can be no such name.
+/// "flow.voice.up"; nullopt when it cannot be such a name.
 [[nodiscard]] std::optional<Way> parse_way(std::string_view text);
 
-/// True if it is the letter of a command, "a" to "h".
+/// True if the text is the letter of a command, "a" to "h".
 [[nodiscard]] bool is_command(std::string_view text);
 
-/// True if it is the name of the path between two commands, "a-c".
+/// True if the text is the name of the path between two commands, "a-c".
 [[nodiscard]] bool is_of_commands(std::string_view path);
 
-/// The way from one to the other of two different peers, by their numbers, or commands, by their
-/// letters: the path has the name of the lower one first.
+/// Returns the way from one peer to another, by their numbers, or from one command to another, by
+/// their letters. The two must differ. The name of the path has the lower one first.
 [[nodiscard]] Way way_between(std::string_view from, std::string_view to);
 
 /// Returns the name of a client's path.
 [[nodiscard]] std::string client_path(std::string_view number_or_address);
 
-/// The paths of a run; by default it has only one.
+/// The names that paths of a run may have. By default a run has only one path.
 struct PathNames {
     std::vector<std::string> links{};
     bool clients = false;                    // there may be paths of clients
@@ -91,10 +93,10 @@ struct PathNames {
     std::vector<std::string> flows{};        // flows that each path has
     std::vector<std::string> without_rate{}; // flows that share the rate of the rest
     std::vector<std::string> untouched{};    // flows that have no conditions
-    std::string without_links{};             // why no links exist; "": without a reason
+    std::string without_links{};             // why no links exist; "": no reason is given
 
     [[nodiscard]] bool contains(std::string_view path) const;
-    /// Says why contains() is false: "there is no link 1-3: use one of 1-2, 2-3".
+    /// Returns why contains() is false: "there is no link 1-3: use one of 1-2, 2-3".
     [[nodiscard]] std::string refusal(std::string_view path) const;
 };
 

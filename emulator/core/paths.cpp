@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-/// Groups directors that are twins: their common work is done on only one of them.
+/// Groups directors that are twins, so that their common work is done only once.
 class Paths::Twins {
 public:
     /// Returns the new state of a director that was a twin of this one before its work was done;
@@ -29,7 +29,7 @@ public:
         return known_.emplace_back(Known{before, std::move(after)}).after;
     }
 
-    /// Returns the director after advance(now), where a change has become due by then.
+    /// Returns the director after advance(now), if a change has become due by then.
     const Director& advanced(const Director& director, base::TimePoint now)
     {
         if (const Director* twin = find(director)) return *twin;
@@ -48,7 +48,7 @@ private:
 
 namespace {
 
-/// True if it is the name of a single path, not of a flow on all.
+/// True if it is the name of a single path, not of a flow on all paths.
 bool is_of_one(std::string_view name) { return common_name(name) != name; }
 
 std::shared_ptr<const FlowFilters> filters_of(const std::vector<Flow>& flows)
@@ -98,7 +98,7 @@ Director Paths::beginning_of(const std::string& name) const
     return std::ranges::find(beginnings_, common_name(name), &Absent::name)->director;
 }
 
-/// Returns the director of a path that comes now.
+/// Returns the director of a path that is added now.
 Director Paths::director_for(const std::string& name)
 {
     const auto known = std::ranges::find(absent_, name, &Absent::name);
@@ -182,7 +182,7 @@ void Paths::advance_all(base::TimePoint now)
             one.path->advance(now);
         }
     }
-    // Paths that come later stay twins of those that are there.
+    // Paths that are added later stay twins of the existing ones.
     const auto advance = [&](Director& director) {
         if (is_due(director)) {
             director = twins.advanced(director, now);
@@ -232,11 +232,11 @@ base::Result<void> Paths::expect(std::span<const std::string> mentioned)
 base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::string> mentioned,
                                 base::TimePoint now, ChangeCause by)
 {
-    // A change is stamped by what arrives on any path: it may come after this moment.
+    // A change has the time of the last arrival on any path, which may be later than `now`.
     catch_up(now);
     now = now_;
     if (auto expected = expect(mentioned); !expected) return expected;
-    // First what each becomes, and only when none refuses, all of it at once.
+    // First computes the new state of each path. If none refuses, applies all of them at once.
     Twins twins;
     std::deque<Director> own; // directors of the paths that the command names
     std::vector<const Director*> next;
@@ -267,7 +267,7 @@ base::Result<void> Paths::apply(const CommandFor& command, std::span<const std::
     return {};
 }
 
-/// Forgets the settings of paths that are not there, after another profile or a reset. Paths that
+/// Discards the settings of paths that do not exist, after another profile or a reset. Paths that
 /// the profile names keep theirs.
 void Paths::forget_absent(const Command& command, std::span<const std::string> mentioned)
 {

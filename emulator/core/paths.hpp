@@ -24,9 +24,9 @@
 
 namespace hapnet::emulator {
 
-/// All emulated paths of a run, on one clock and with one generation: conditions that change, by
-/// the timeline or by hand, change on all paths at once. Paths may come and go. Does no I/O and
-/// reads no clock.
+/// All emulated paths of a run, with one clock and one generation: conditions that change, by the
+/// timeline or by hand, change on all paths at once. Paths may come and go. Does no I/O and reads
+/// no clock.
 class Paths {
 public:
     struct Setup {
@@ -38,26 +38,27 @@ public:
         bool takes_newcomers = false;                 // paths of clients come and go during the run
         StreamDetail stream_detail = StreamDetail::totals;
         std::size_t changes_max = ChangeLog::entries_max; // changes that each path keeps
-        /// Names of paths that another thread has: what is decided for them counts here, too.
+        /// Names of paths that another thread has. The decisions for them count in this generation,
+        /// too.
         std::vector<std::string> elsewhere{};
     };
 
     Paths(const Profile& profile, Setup setup);
 
-    /// A path of this name, which is not there yet, and one for each flow on it, which its
-    /// branches() have: as if they had been from the start. They stay where they are until they
-    /// are removed, with it.
+    /// Adds a path of this name, which must not exist yet, and one path for each of its flows,
+    /// which its branches() has. All have the state as if they had existed from the start. They do
+    /// not move until they are removed; the flows are removed with their path.
     EmulatedPath& add(const std::string& name);
     void remove(std::string_view name);
 
-    /// Follows the timeline up to `now`, with all paths. Cheap when nothing changes.
+    /// Follows the timeline of all paths up to `now`. Cheap when nothing changes.
     void advance(base::TimePoint now)
     {
         now_ = std::max(now_, now);
         if (base::is_due(next_change_, now)) advance_all(now);
     }
 
-    /// Like advance(), but gives all paths the time, also where nothing changes.
+    /// Does the same as advance(), but also gives the time to paths where nothing changes.
     void catch_up(base::TimePoint now)
     {
         now_ = std::max(now_, now);
@@ -69,29 +70,31 @@ public:
     using CommandFor =
         std::function<base::Result<Command>(std::string_view path, const Path& conditions)>;
 
-    /// Applies commands to all paths at once. Nothing changes when one path would refuse.
+    /// Applies commands to all paths at once. If one path would refuse, nothing changes.
     /// `mentioned`: the names in the command. For a path that does not exist yet, the command is
-    /// kept until it appears.
+    /// kept until the path is added.
     base::Result<void> apply(const CommandFor& command, std::span<const std::string> mentioned,
                              base::TimePoint now, ChangeCause by = ChangeCause::hand);
 
-    /// 1 at first, and one more whenever conditions have changed or other profiles were applied.
+    /// Returns the generation. It is 1 at first, and grows by one whenever conditions have changed
+    /// or other profiles were applied.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
     [[nodiscard]] base::Duration elapsed() const { return now_ - setup_.start; }
-    /// The latest time that the paths have been given.
+    /// Returns the latest time that the paths have been given.
     [[nodiscard]] base::TimePoint now() const { return now_; }
 
-    /// The next generation comes after this one.
+    /// Ensures that the next generation is greater than this one.
     void count_from(std::uint64_t generation) { generation_ = std::max(generation_, generation); }
 
-    /// The time when the next datagram of any path is due. It asks only paths whose state has
-    /// changed.
+    /// Returns the time when the next datagram of any path is due. It asks only the paths whose
+    /// state has changed.
     [[nodiscard]] std::optional<base::TimePoint> next_due()
     {
         refresh_due_times();
         return due_times_->earliest();
     }
-    /// `visit(number)` for the EmulatedPath::number() of each that has a datagram due at `now`.
+    /// Calls `visit(number)` with the EmulatedPath::number() of each path that has a datagram due
+    /// at `now`.
     void each_due(base::TimePoint now, const auto& visit)
     {
         refresh_due_times();
@@ -99,35 +102,34 @@ public:
     }
     [[nodiscard]] std::optional<base::TimePoint> next_change() const { return next_change_; }
 
-    /// The path with this EmulatedPath::number().
+    /// Returns the path with this EmulatedPath::number().
     [[nodiscard]] EmulatedPath& at(std::size_t number) const { return *by_number_[number]; }
 
     [[nodiscard]] PathNames names() const;
-    /// The flows of each path.
+    /// Returns the flows of each path.
     [[nodiscard]] const std::vector<Flow>& flows() const { return profile_.flows; }
 
     struct Named {
         std::string name;
         std::unique_ptr<EmulatedPath> path;
     };
-    /// The paths in the order in which they came, each with its flows behind it.
+    /// Returns the paths in the order in which they were added, each followed by its flows.
     [[nodiscard]] const std::vector<Named>& all() const { return paths_; }
 
-    /// The director of a path. Paths that are not there are included as far as something is known
-    /// of them.
+    /// The director of a path. Paths that do not exist are included if a director is kept for them.
     struct Decider {
-        /// Empty, or a flow without a path: this director is for all paths to come that have no
-        /// settings of their own.
+        /// The name of the path. If it is empty, or that of a flow without a path, this director is
+        /// for all future paths that have no settings of their own.
         std::string_view name;
         const Director* director = nullptr;
     };
     [[nodiscard]] std::vector<Decider> deciders() const;
 
-    /// The number of names for which a run with newcomers can keep settings.
+    /// The greatest number of names for which a run with newcomers can keep settings.
     static constexpr std::size_t absent_max = 64;
 
 private:
-    /// The director of paths that are not there.
+    /// The director of paths that do not exist here.
     struct Absent {
         std::string name;
         Director director;
@@ -146,7 +148,8 @@ private:
     base::Result<void> expect(std::span<const std::string> mentioned);
     void forget_absent(const Command& command, std::span<const std::string> mentioned);
     [[nodiscard]] Director director_for(const std::string& name);
-    /// A director for a path as if it had been there from the start, and nothing had been changed.
+    /// Returns a director for a path with the state as if it had existed from the start and nothing
+    /// had been changed.
     [[nodiscard]] Director beginning_of(const std::string& name) const;
     void keep_for_absent(const std::string& name);
     [[nodiscard]] std::uint64_t generations() const;
@@ -154,13 +157,15 @@ private:
     Profile profile_;
     Setup setup_;
     std::shared_ptr<const FlowFilters> filters_; // null: there are no flows
-    /// Directors as at the start, for paths that the profile does not name: one for each flow and,
-    /// last, one for the rest, by common_name().
+    /// Directors in their initial state, for paths that the profile does not name: one for each
+    /// flow and, last, one for the other traffic, by common_name().
     std::vector<Absent> beginnings_;
     std::vector<std::string> said_of_; // paths that the profile names
-    /// The present directors for paths of clients to come, by common_name(); empty if none come.
+    /// The current directors for future paths of clients, by common_name(). Empty in a run without
+    /// newcomers.
     std::vector<Absent> newcomers_;
-    std::vector<Absent> absent_; // directors of named paths that are not there, or in another part
+    // Directors of named paths that do not exist or are in another part
+    std::vector<Absent> absent_;
     std::vector<std::string> mentioned_; // names of clients' paths that have settings of their own
     std::unique_ptr<DueTimes> due_times_ = std::make_unique<DueTimes>(); // marked by the paths
     std::vector<EmulatedPath*> by_number_; // null: no path has this number

@@ -18,7 +18,7 @@ base::RandomStream stream_of(base::Seed seed, std::string_view way, std::string_
     return seed.stream(fmt::format("{}/{}", way, stage));
 }
 
-/// True if a share of all datagrams includes this one. A stage that is absent draws nothing.
+/// True if the drawn share of all datagrams includes this one. An absent stage draws nothing.
 bool is_drawn(base::Probability share, const base::RandomStream& stream, std::uint64_t number)
 {
     return share.fraction() > 0 && stream.uniform(number) < share.fraction();
@@ -26,11 +26,11 @@ bool is_drawn(base::Probability share, const base::RandomStream& stream, std::ui
 
 } // namespace
 
-/// The regimes of a direction at work.
+/// The running regimes of a direction.
 struct Pipeline::InRegimes {
     Regimes said;
     RegimeChain chain;
-    std::vector<Pipeline> stages; // one for each regime: only what the regime sets
+    std::vector<Pipeline> stages; // one for each regime, with only its own settings
 };
 
 Pipeline::~Pipeline() = default;
@@ -87,7 +87,7 @@ Fate Pipeline::own_fate(const Packet& packet)
         fate.states[i] = loss_[i].process.state();
         if (!fate.drop) fate.drop = lost;
     }
-    // Delays may depend on the ones before: they are drawn for what is lost, too.
+    // Delays may depend on the previous ones, so they are also drawn for lost datagrams.
     const auto delay = delay_.on_packet(packet) + jitter_.on_packet(packet);
     if (fate.drop) return fate;
     corrupt(fate, packet.number);
@@ -130,7 +130,7 @@ Fate Pipeline::on_packet(const Packet& packet, std::size_t regime)
     return fate;
 }
 
-/// Every datagram is shown to all of them.
+/// Shows the datagram to all stages that have a memory.
 Pipeline::Draws Pipeline::draw(const Packet& packet)
 {
     Draws draws;
@@ -174,7 +174,7 @@ std::vector<RegimeCourse> Pipeline::regime_course(base::Duration until) const
     return regimes_->chain.course(until);
 }
 
-/// Regimes of the same course go on, whatever they set.
+/// Changes the regimes. If the course stays the same, it continues, whatever the regimes set.
 void Pipeline::change_regimes(const Regimes& regimes)
 {
     if (regimes.empty()) return regimes_.reset();
@@ -244,8 +244,8 @@ Pipeline::LawIndex Pipeline::index_of(const std::vector<LossLaw>& laws, std::siz
     return {laws[index].index(), static_cast<std::size_t>(before) + 1};
 }
 
-/// Its stream is "loss/random", "loss/random#2", ...: by kind, so that a law of another kind more
-/// or less in the list shifts nothing.
+/// Its stream is "loss/random", "loss/random#2", ...: numbered within a kind, so that adding or
+/// removing a law of another kind does not shift the streams.
 Pipeline::LossStage Pipeline::loss_stage(const std::vector<LossLaw>& laws, std::size_t index) const
 {
     const LawIndex position = index_of(laws, index);

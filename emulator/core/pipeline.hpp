@@ -22,52 +22,55 @@
 
 namespace hapnet::emulator {
 
-/// Draws the fates of the datagrams of one direction. Every stage sees every datagram, also one
-/// that another stage has dropped, so that no stage can shift the draws of another; the first
-/// drop is final. Stage S of direction D draws from the stream "D/S" of the seed ("up/jitter",
+/// Draws the fates of the datagrams of one direction. Every stage sees every datagram, even if
+/// another stage has dropped it, so that no stage can shift the draws of another. The first drop is
+/// final. Stage S of direction D draws from the stream "D/S" of the seed ("up/jitter",
 /// "down/loss/random", ...) and from no other.
 ///
 /// The stages, always in this order: mtu, loss (law after law), corrupt, duplicate, delay, jitter,
-/// reorder. The rate and the order of departure are kept by Link.
+/// reorder. Link handles the rate and the order of departure.
 ///
-/// With regimes the fate of a datagram is drawn by the stages of the regime that holds when it
-/// arrives, and by the direction's own where the regime sets nothing. The stages of regime R draw
-/// from "D/regime/R/S", the chain of the regimes from "D/regime", or from "both/regime" if both
-/// directions are in the same one.
+/// With regimes, the stages of the regime at the arrival of a datagram draw its fate. For a setting
+/// that the regime does not have, the stages of the direction do. The stages of regime R draw from
+/// "D/regime/R/S". The chain of the regimes draws from "D/regime", or from "both/regime" if both
+/// directions share their regimes.
 class Pipeline {
 public:
-    /// The streams of a path with a name begin with it: "client/1/up/jitter"; see stream_name().
+    /// The names of the random streams begin with the name of the path, if it has one:
+    /// "client/1/up/jitter"; see stream_name().
     Pipeline(const Conditions& conditions, base::Seed seed, Direction direction,
              std::string_view path = {});
 
-    // Defined in pipeline.cpp, where it is known what regimes are.
+    // Both are defined in pipeline.cpp, where the class of the regimes is complete.
     ~Pipeline();
     Pipeline(Pipeline&&) noexcept;
     Pipeline& operator=(Pipeline&&) noexcept;
     Pipeline(const Pipeline& other);
     Pipeline& operator=(const Pipeline&) = delete;
 
-    /// Packets are shown in the order of their numbers, none left out.
+    /// Returns the fate of a packet. Call it for every packet in the order of their numbers.
     [[nodiscard]] Fate on_packet(const Packet& packet)
     {
         return regimes_ == nullptr ? own_fate(packet) : fate_at(packet);
     }
-    /// The fate as if the regime with this index held. Ensures that there are regimes.
+    /// Returns the fate as if the regime with this index were in effect. Ensures that there are
+    /// regimes.
     [[nodiscard]] Fate on_packet(const Packet& packet, std::size_t regime);
 
-    /// The chain of the regimes, at the beginning; nullopt: there are none.
+    /// Returns the chain of the regimes in its initial state; nullopt: there are none.
     [[nodiscard]] std::optional<RegimeChain> chain() const;
-    /// Time and stays of each regime until this time; empty: there are none.
+    /// Returns the time and the stays of each regime until this time; empty: there are none.
     [[nodiscard]] std::vector<RegimeCourse> regime_course(base::Duration until) const;
 
-    /// The random stream of a further stage of this direction.
+    /// Returns the random stream of another stage of this direction.
     [[nodiscard]] base::RandomStream stream(std::string_view stage) const;
 
-    /// Holds from the next packet on; laws that stay go on from their states.
+    /// Changes the conditions from the next packet on. Laws that stay continue from their states.
     void change(const Conditions& conditions);
 
 private:
-    /// A law by its kind: the first random loss, the second one, the first burst, ...
+    /// The index of a law among those of its kind: the first random loss, the second one, the first
+    /// burst, ...
     struct LawIndex {
         std::size_t kind = 0;
         std::size_t occurrence = 1;
@@ -79,7 +82,7 @@ private:
         LossProcess process;
     };
 
-    /// Draws of the stages with a memory for a datagram.
+    /// The draws for a datagram of those stages that have a memory.
     struct Draws {
         std::optional<DropCause> lost{};
         std::array<LossState, loss_laws_max> states{};

@@ -36,9 +36,9 @@ constexpr auto fields_of(base::Tag<LateSpread>)
                         base::member("max", &LateSpread::max));
 }
 
-/// The departures of one direction of a path since the last look: how long they were under way in
-/// the emulator, and how late they left. It has a fixed size; a datagram costs four additions and
-/// two comparisons.
+/// The departures of one direction of a path since the last look: how long they were in the
+/// emulator, and how late they left. It has a fixed size. A datagram costs four additions and two
+/// comparisons.
 struct Pulse {
     std::uint64_t count = 0;
     base::Duration delay_min = base::Duration::max();
@@ -67,7 +67,7 @@ struct Pulse {
         late_sum_ns += later.late_sum_ns;
     }
 
-    /// The delays of the departures; nullopt: nothing has left.
+    /// Returns the delays of the departures; nullopt: nothing has left.
     [[nodiscard]] std::optional<DelaySpread> delay() const
     {
         if (count == 0) return std::nullopt;

@@ -12,21 +12,21 @@ struct QueueLimits {
     static constexpr std::size_t bytes_by_default = std::size_t{256} << 20;
     static constexpr std::size_t datagrams_min = 65'536;
 
-    /// The limit of each direction. Address space for the queues is reserved for that number, about
-    /// 350 bytes a datagram. Memory is used only for the largest number that was there.
+    /// The limit of each direction. Address space for the queues is reserved for this number, about
+    /// 350 bytes a datagram. Memory is used only for the largest number that was in flight so far.
     std::size_t datagrams_max = datagrams_of(bytes_by_default);
-    /// The limit of each direction; the size of the slab where it is not shared.
+    /// The limit of each direction. It is the size of the slab unless the slab is shared.
     std::size_t bytes_max = bytes_by_default;
 
-    /// The limits of a path that has this amount of memory: a datagram for each KiB, at least
-    /// 65 536.
+    /// Returns the limits of a path that has this amount of memory: one datagram for each KiB, at
+    /// least 65 536.
     [[nodiscard]] static constexpr QueueLimits within(std::size_t bytes)
     {
         return {.datagrams_max = datagrams_of(bytes), .bytes_max = bytes};
     }
 
-    /// The limits of one of several paths that share this amount of memory. A path may have more
-    /// than its part while others need less, and a few datagrams in any case.
+    /// Returns the limits of one of several paths that share this amount of memory. A path may use
+    /// more than its part while others need less, and may always have a few datagrams in flight.
     [[nodiscard]] static constexpr QueueLimits shared(std::size_t bytes, std::size_t paths)
     {
         constexpr std::size_t parts = 4;

@@ -9,8 +9,8 @@
 
 namespace hapnet::emulator {
 
-/// Lets the first of many equal messages pass, and then one in ten seconds: what strangers send
-/// must not fill a log.
+/// Lets the first of many equal messages pass, and then one in ten seconds, so that traffic from
+/// strangers cannot fill a log.
 class RateLimit {
 public:
     static constexpr base::Duration every = std::chrono::seconds{10};

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t draw_of_stay = 0;
 constexpr std::uint32_t draw_of_follower = 1;
 
-/// The first index at which the shares add up to more than `u`, of those above 0.
+/// Returns the first index, among the shares above 0, at which the sum of the shares exceeds `u`.
 std::size_t chosen(std::span<const double> shares, double u)
 {
     std::size_t last = 0;
@@ -48,7 +48,7 @@ std::vector<double> followers_of(std::span<const Regime> regimes, std::size_t in
 }
 
 /// Computes the shares by the algorithm of Grassmann, Taksar and Heyman (Operations Research 33,
-/// 1985), which subtracts nothing.
+/// 1985), which has no subtractions.
 std::vector<double> shares_of(std::span<const Regime> regimes)
 {
     const std::size_t n = regimes.size();

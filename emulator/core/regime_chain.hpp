@@ -13,11 +13,11 @@
 
 namespace hapnet::emulator {
 
-/// Returns the shares in which the regimes follow the one at `index`. They add up to 1, and its own
-/// is 0.
+/// Returns, for each regime, the share in which it follows the one at `index`. The shares add up to
+/// 1, and that of `index` itself is 0.
 [[nodiscard]] std::vector<double> followers_of(std::span<const Regime> regimes, std::size_t index);
 
-/// The share of the time that each of them lasts in the long run.
+/// Returns the share of the time that each regime lasts in the long run.
 [[nodiscard]] std::vector<double> shares_of(std::span<const Regime> regimes);
 
 /// The time that one regime has lasted in all, and the number of its stays.
@@ -26,28 +26,30 @@ struct RegimeCourse {
     std::uint64_t stays = 0;
 };
 
-/// The regime that holds at each time: a Markov chain in time. It depends only on the regimes and
-/// on its stream, not on the times at which it is asked. It begins in its stationary law.
+/// The regime at each time, as a Markov chain in continuous time. It depends only on the regimes
+/// and on its stream; the times at which it is asked do not matter. Its first state is drawn from
+/// the stationary law.
 class RegimeChain {
 public:
     /// `regimes` is one that validate() accepts, and not empty.
     RegimeChain(const Regimes& regimes, const base::RandomStream& stream);
 
-    /// The index of the regime at this time since the start of the run, which is not less than at
-    /// the last call; not negative.
+    /// Returns the index of the regime at this time since the start of the run. The time must not
+    /// be negative or earlier than in the last call.
     [[nodiscard]] std::size_t at(base::Duration time)
     {
         while (time >= end_) move_on();
         return now_;
     }
 
-    /// The index of the regime that at() returned last.
+    /// Returns the index of the regime that at() returned last.
     [[nodiscard]] std::size_t current() const { return now_; }
 
-    /// The time when the regime of current() ends.
+    /// Returns the time when the regime of current() ends.
     [[nodiscard]] base::Duration end() const { return end_; }
 
-    /// Time and stays of each until this time, or until that of the last call if it is later.
+    /// Returns the time and the stays of each regime until this time, or until the time of the last
+    /// call of at() if that is later.
     [[nodiscard]] std::vector<RegimeCourse> course(base::Duration until) const;
 
 private:
@@ -64,7 +66,7 @@ private:
     std::size_t now_ = 0;
     base::Duration begin_{};
     base::Duration end_{};
-    std::vector<RegimeCourse> past_; // each `time` leaves out the present stay
+    std::vector<RegimeCourse> past_; // without the current stay
 };
 
 } // namespace hapnet::emulator

@@ -10,8 +10,8 @@
 
 namespace hapnet::emulator {
 
-/// A first-in-first-out queue of bounded size whose memory is reserved at construction; a part
-/// that has never been used is never touched.
+/// A first-in-first-out queue of bounded size whose memory is reserved at construction. Memory that
+/// has never been used is never touched.
 template <typename T>
 class Ring {
 public:

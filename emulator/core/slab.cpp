@@ -34,8 +34,8 @@ std::uint8_t Slab::size_for(std::size_t bytes)
     return by_units[(bytes + sizes.front() - 1) / sizes.front()];
 }
 
-/// Returns a block with a free slot of this size. If none can be had, it has slots of the smallest
-/// larger size that has a free one; nullopt: no size has.
+/// Returns a block with a free slot of this size. If none is available, it has slots of the
+/// smallest larger size with a free slot; nullopt: there is no free slot of any size.
 std::optional<std::uint32_t> Slab::block_with_room(std::uint8_t size)
 {
     if (open_[size] != none) return open_[size];
@@ -53,7 +53,7 @@ std::optional<std::uint32_t> Slab::block_with_room(std::uint8_t size)
     return number;
 }
 
-/// The block has room again.
+/// Adds the block to the list of those with room.
 void Slab::open(std::uint32_t number)
 {
     Block& block = blocks_[number];
@@ -64,7 +64,7 @@ void Slab::open(std::uint32_t number)
     first = number;
 }
 
-/// The block has no room any more, or is free.
+/// Removes the block from that list: it has no room any more, or is free.
 void Slab::close(std::uint32_t number)
 {
     const Block& block = blocks_[number];

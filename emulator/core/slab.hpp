@@ -12,12 +12,13 @@
 
 namespace hapnet::emulator {
 
-/// Memory for the bytes of the datagrams in flight, of all links that share it. All of it is
-/// reserved at construction: storing never allocates, and what has never been used costs no memory
-/// either (the system gives pages on first use).
+/// Memory for the bytes of the datagrams in flight of all links that share it. All of it is
+/// reserved at construction: storing never allocates, and memory that has never been used costs
+/// nothing (the system provides pages on first use).
 ///
-/// It is cut into blocks of 64 KiB. A block has slots of one size, the smallest of a few that holds
-/// the datagram which needed it, and is free for any size again when its last slot is.
+/// It is divided into blocks of 64 KiB. A block has slots of one size, the smallest size that holds
+/// the datagram for which the block was taken. When its last slot is free, the block can be used
+/// for any size again.
 class Slab {
 public:
     using Slot = std::uint32_t;
@@ -26,8 +27,8 @@ public:
     /// The limit keeps the numbers of slots within 32 bits.
     static constexpr std::size_t bytes_limit = std::size_t{256} << 30;
 
-    /// Ensures that `bytes_max` is at least one block and at most `bytes_limit`. A part of a block
-    /// is not used.
+    /// Ensures that `bytes_max` is at least one block and at most `bytes_limit`. The remainder
+    /// beyond whole blocks is not used.
     explicit Slab(std::size_t bytes_max);
 
     struct Stored {
@@ -36,10 +37,10 @@ public:
         std::size_t slot_bytes = 0; // size of the slot that holds the copy
     };
 
-    /// A copy of `bytes` (at most 65536); nullopt when there is no room.
+    /// Stores a copy of `bytes` (at most 65536); nullopt when there is no room.
     [[nodiscard]] std::optional<Stored> store(std::span<const std::byte> bytes);
 
-    /// The slot is free from now on. Returns how much of the memory that is.
+    /// Frees the slot. Returns the amount of memory that this frees.
     std::size_t release(Slot slot);
 
 private:
@@ -52,11 +53,11 @@ private:
         }
         return each;
     }();
-    /// The number of slot numbers of a block. Slots of the smallest size need all of them.
+    /// The number of slot numbers of a block. A block of the smallest size needs all of them.
     static constexpr std::uint32_t slots_max = block_bytes / sizes.front();
     static constexpr std::uint32_t none = 0xffff'ffff;
 
-    /// A free slot holds the index of the next free one of its block.
+    /// A free slot holds the index of the next free slot of its block.
     using Index = std::uint16_t;
     static constexpr Index no_index = 0xffff;
 

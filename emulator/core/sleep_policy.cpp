@@ -14,16 +14,17 @@ using namespace std::chrono_literals;
 constexpr base::Duration awake_max = 10ms;
 constexpr base::Duration rest = 50us; // half a per cent of awake_max
 
-/// The margin moves by these at each wake-up that leaves too little of it, or enough. In balance
-/// one in a hundred leaves too little. At 1000 wake-ups a second it grows by up to 2 us a
+/// The margin changes by these amounts at each wake-up that leaves too little of it, or enough. In
+/// balance one in a hundred leaves too little. At 1000 wake-ups a second it grows by up to 2 us a
 /// millisecond and shrinks by up to 20 us a second.
 constexpr base::Duration margin_growth = 1980ns;
 constexpr base::Duration margin_decay = 20ns;
 
-/// A warm-up takes 10 us, now and then 14 us (measured as above): it must not make us late.
+/// The time for a warm-up, which usually takes 10 us and sometimes 14 us (measured as above) and
+/// must not cause lateness.
 constexpr base::Duration warm_up_time = 15us;
 
-/// The usual cost of a wake-up, to begin with (measured 2026, 2 virtual CPUs, Linux 6.18).
+/// The initial estimate of the cost of a wake-up (measured 2026, 2 virtual CPUs, Linux 6.18).
 constexpr base::Duration margin_at_start = 60us;
 
 } // namespace
@@ -54,7 +55,7 @@ void SleepPolicy::on_wake_up(const Plan& plan, const WakeUp& wake_up)
     }
     const auto* sleep = std::get_if<Sleep>(&plan);
     if (sleep == nullptr || wake_up.by_datagram || !base::is_due(sleep->until, wake_up.woke_at)) {
-        return; // this wake-up says nothing about timers
+        return; // this wake-up was not by a timer
     }
     const bool is_late = wake_up.woke_at - *sleep->until + warm_up_time > margin_;
     margin_ = std::clamp(margin_ + (is_late ? margin_growth : -margin_decay), limits_.least,

@@ -12,16 +12,17 @@
 namespace hapnet::emulator {
 
 /// Decides when a relay sleeps and when it spins on the clock, from times alone. A sleep ends late
-/// by what the machine needs to wake up: so it ends a margin before the deadline, and the relay
-/// spins for the rest. The margin follows the wake-ups that are seen, between two limits, so that
-/// nearly all of them leave time for a warm-up: it grows fast and shrinks slowly.
+/// by the time that the machine needs to wake up. So the planned end of a sleep is a margin before
+/// the deadline, and the relay spins for the rest. The margin follows the observed wake-ups,
+/// between two limits, so that nearly all of them leave time for a warm-up: it grows fast and
+/// shrinks slowly.
 ///
-/// It also sees to it that a busy relay sleeps at times: a SCHED_FIFO thread that never sleeps
-/// keeps the kernel from receiving (ksoftirqd), and one that rarely sleeps is stopped for the sake
-/// of other programs. So it spins only as long as a WatchBudget lasts.
+/// It also ensures that a busy relay sleeps at times. A SCHED_FIFO thread that never sleeps keeps
+/// the kernel from receiving (ksoftirqd), and the kernel stops one that rarely sleeps so that other
+/// programs can run. So the relay spins only as long as a WatchBudget lasts.
 class SleepPolicy {
 public:
-    /// The least and the most margin; equal ones fix it.
+    /// The least and the greatest margin. If both are equal, the margin is fixed.
     struct Margin {
         base::Duration least{};
         base::Duration most{};
@@ -30,7 +31,8 @@ public:
     enum class Watching : std::uint8_t { within_budget, without_limit };
 
     struct Spin { // the caller returns at once and reads the clock again
-        /// There is time to bring the way of a datagram into the caches, which a sleep has emptied.
+        /// True if there is time to bring code and data for a datagram into the caches, which a
+        /// sleep has emptied.
         bool warm_up = false;
     };
     struct Sleep { // until a datagram comes, or until the time `until`
@@ -43,7 +45,7 @@ public:
 
     SleepPolicy(Margin limits, base::TimePoint now, Watching watching = Watching::within_budget);
 
-    /// Returns the plan at `now` for the time before `deadline`; nullopt: there is none.
+    /// Returns the plan at `now` for the time before `deadline`; nullopt: there is no deadline.
     [[nodiscard]] Plan plan(std::optional<base::TimePoint> deadline, base::TimePoint now) const;
 
     struct WakeUp {
@@ -64,7 +66,7 @@ public:
         budget_.on_usage(processor_time, now);
     }
 
-    /// The warm-up that was planned has been done.
+    /// Notes that the planned warm-up has been done.
     void on_warm_up() { is_cold_ = false; }
 
     [[nodiscard]] base::Duration margin() const { return margin_; }

@@ -79,7 +79,7 @@ constexpr auto fields_of(base::Tag<Counters>)
             .counter("hapnet_emulator_dropped", "cause"));
 }
 
-/// The counters, and the times of the emulator's own doing.
+/// The counters, and the times that the emulator itself causes.
 struct Statistics : Counters {
     base::SnapshotHistogram lateness; // departure minus due time, for each delivered datagram
     base::SnapshotHistogram sojourn;  // wait before a bottleneck, for each datagram that it sent
@@ -87,11 +87,11 @@ struct Statistics : Counters {
     /// Adds up the directions of several paths.
     void add(const Statistics& other);
 
-    /// True if the emulator's own timing error is tolerable: 99 % left at most `budget` late, or
-    /// nothing left at all.
+    /// True if the emulator's own timing error is tolerable: 99 % of the datagrams left at most
+    /// `budget` late, or nothing left at all.
     [[nodiscard]] bool is_punctual(base::Duration budget) const;
 
-    /// The number of datagrams that left more than `budget` late.
+    /// Returns the number of datagrams that left more than `budget` late.
     [[nodiscard]] std::uint64_t late_beyond(base::Duration budget) const;
 };
 

@@ -22,36 +22,37 @@
 
 namespace hapnet::emulator {
 
-/// Departures that follow each other sooner than this come as a clump.
+/// Departures that follow each other within less than this time are clumped.
 inline constexpr base::Duration clump_gap = std::chrono::microseconds{50};
 
-/// One direction of a stream, as a loop sees it that takes its input from the stream. nullopt where
-/// there was nothing to measure. Copies are not counted.
+/// The measurements of one direction of a stream, from the viewpoint of a control loop that takes
+/// its input from the stream. nullopt where there was nothing to measure. Copies are not counted.
 struct StreamReport {
-    /// The law that was asked for, before queues and the order policy: the drawn delays of those
+    /// The requested law, before queues and the order policy: the drawn delays of the datagrams
     /// that were to be delivered.
     std::optional<base::Moments> requested_delay;
-    /// The law that was realised: the one-way delays (RFC 7679) from arrival to departure.
+    /// The resulting law: the one-way delays (RFC 7679) from arrival to departure.
     std::optional<base::Moments> delay;
     std::optional<base::Quantiles> delay_quantiles;
-    /// Delay variation (RFC 3393): |delay - delay of the one that departed just before|.
+    /// Delay variation (RFC 3393): |delay - delay of the datagram that departed just before|.
     std::optional<base::Quantiles> delay_variation;
     /// The time from each departure to the next.
     std::optional<base::Quantiles> gap;
     /// The share of these gaps that are shorter than clump_gap, from 0 to 1.
     std::optional<double> clumped_share;
 
-    /// Runs of updates that were missing when a later one departed, whether lost or still to
-    /// come: a loop that uses the newest has no use for them any more. The numbers between an
-    /// in-order departure (RFC 4737, 3.3) and the one before it, or the beginning.
+    /// Runs of updates that were missing when a later one departed, whether they were lost or
+    /// departed later: a loop that uses the newest update no longer needs them. They are the
+    /// numbers between an in-order departure (RFC 4737, 3.3) and the previous one, or the
+    /// beginning.
     base::Tally missing_runs;
     /// Reordered departures (RFC 4737, 3.3) by their extents (4.2), which count departures.
     base::Tally reordered;
     /// The number of these extents that may be too small; see base::ReorderExtents.
     std::uint64_t beyond_look_back = 0;
 
-    /// Age of information at the output, from the arrival of updates, between the first and the
-    /// last in-order departure.
+    /// The age of information at the output, counted from the arrival of updates, between the first
+    /// and the last in-order departure.
     base::Age age;
 };
 
@@ -74,7 +75,7 @@ struct StreamTotals {
 /// The extent to which a stream is measured. Each level includes the ones before it.
 enum class StreamDetail { nothing, totals, over_time };
 
-/// Measures one direction as it goes, in memory of a fixed size.
+/// Measures one direction during the run, in memory of a fixed size.
 class StreamStatistics {
 public:
     explicit StreamStatistics(StreamDetail detail = StreamDetail::totals,
@@ -84,7 +85,7 @@ public:
         if (detail == StreamDetail::over_time) totals_.over_time.emplace(start);
     }
 
-    /// The datagram that arrived was given this fate.
+    /// Notes that the datagram that arrived was given this fate.
     void on_packet(const Fate& fate, base::TimePoint arrival)
     {
         if (detail_ == StreamDetail::nothing) return;
@@ -92,13 +93,14 @@ public:
         if (detail_ == StreamDetail::over_time) ++totals_.over_time->at(arrival).received;
     }
 
-    /// A datagram was dropped, not a copy of one.
+    /// Notes that a datagram was dropped. Do not call it for copies.
     void on_dropped(base::TimePoint at)
     {
         if (detail_ == StreamDetail::over_time) ++totals_.over_time->at(at).dropped;
     }
 
-    /// The line of a rate began to send one that arrived then.
+    /// Notes that the line of a rate began to send, at `begun`, a datagram that arrived at
+    /// `arrival`.
     void on_begun(base::TimePoint arrival, base::TimePoint begun)
     {
         if (detail_ != StreamDetail::over_time) return;
@@ -106,7 +108,7 @@ public:
         stretch.queue_max = std::max(stretch.queue_max, std::optional{begun - arrival});
     }
 
-    /// The datagram left at `at`, not before the one that left before it.
+    /// Notes that the datagram left at `at`, which is not earlier than the previous departure.
     void on_sent(const Datagram& datagram, base::TimePoint at)
     {
         if (detail_ != StreamDetail::nothing && !datagram.is_copy) add(datagram, at);

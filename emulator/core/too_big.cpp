@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t icmp_header_bytes = 8;
 constexpr std::byte hops{64};
 
-/// The form of a family's answers: the place of the addresses, and the greatest length.
+/// The properties of the answers of one address family: the offset of the addresses, and the
+/// greatest length.
 struct Family {
     std::size_t header_bytes;
     std::size_t addresses_at; // offset of the source address; the destination follows
@@ -41,7 +42,7 @@ bool is_nothing(std::span<const std::byte> address)
     return std::ranges::all_of(address, [](std::byte byte) { return byte == std::byte{0}; });
 }
 
-/// Answers to errors could go on for ever.
+/// True for an ICMP error. Answers to errors could continue for ever.
 bool is_icmp_error(std::span<const std::byte> packet)
 {
     constexpr std::array errors{3, 4, 5, 11, 12};

@@ -12,14 +12,15 @@
 
 namespace hapnet::emulator {
 
-/// Losses that no condition asked for and no end of the path caused: the emulator, or the system
-/// under it, had no room. A full queue of a `rate` is not one of them.
+/// Losses that neither a condition nor an end of the path caused: the emulator, or the system under
+/// it, had no room. A full queue of a `rate` is not one of them.
 inline constexpr std::array own_losses{DropCause::queue_full, DropCause::send_buffer_full,
                                        DropCause::send_failed};
 
-/// Why the traffic of one direction does not show its conditions: what the emulator itself did to
-/// it, too late or lost, a few words each. Empty: the direction is valid. `overflowed`: datagrams
-/// that the system dropped before the emulator could take them.
+/// Returns the reasons why the traffic of one direction does not represent its conditions:
+/// datagrams that the emulator itself sent too late or lost, a few words for each reason. Empty:
+/// the direction is valid. `overflowed`: datagrams that the system dropped before the emulator
+/// could take them.
 [[nodiscard]] std::vector<std::string>
 invalid_because(const Statistics& statistics, std::uint64_t overflowed, base::Duration budget);
 

@@ -11,22 +11,21 @@
 namespace hapnet::emulator {
 
 /// Limits the time for which a thread may watch the clock, by the processor time that it has used.
-/// A SCHED_FIFO thread that takes nearly all of a core is stopped by the kernel for 50 ms of each
-/// second, so that other programs get their part (the fair server of Linux 6.12,
-/// sched_rt_runtime_us before it): each datagram of that time is late. So a thread that works much
-/// watches less.
+/// The kernel stops a SCHED_FIFO thread that takes nearly all of a core for 50 ms of each second,
+/// so that other programs can run (the fair server of Linux 6.12, sched_rt_runtime_us before it).
+/// Each datagram in that time is late. So a thread that works much watches less.
 ///
-/// Watching is permitted as long as a budget lasts. It fills by `percent_max` of the time that
-/// passes and is spent by all processor time that the thread uses, work included.
+/// Watching is permitted as long as a budget lasts. The budget grows by `percent_max` of the time
+/// that passes, and all processor time that the thread uses, work included, is subtracted from it.
 class WatchBudget {
 public:
-    /// Without watching, 20 000 datagrams a second take 74 % of a core, and with it 14 000 take
-    /// 87 %, at which the stops begin (2 virtual CPUs, Linux 6.18, one busy process beside).
+    /// Without watching, 20 000 datagrams a second take 74 % of a core. With watching, 14 000 take
+    /// 87 %, at which the stops begin (2 virtual CPUs, Linux 6.18, one other busy process).
     static constexpr int percent_max = 70;
     /// The limit of the time that can be saved up, or owed. The effect of a flood is over at most
     /// this long after its end.
     static constexpr base::Duration balance_max = std::chrono::milliseconds{50};
-    /// Reading the processor time is a system call.
+    /// The time between two readings of the processor time, each of which is a system call.
     static constexpr base::Duration look_every = std::chrono::milliseconds{5};
 
     explicit WatchBudget(base::TimePoint now) : looked_{now} {}

@@ -38,8 +38,8 @@ struct Entrance {
     const net::Endpoint& local; // address of the socket
 };
 
-/// Returns the properties of a datagram that filters of flows can match. A destination that is not
-/// known has neither address nor port.
+/// Returns the properties of a datagram that filters of flows can match. An unknown destination has
+/// neither address nor port.
 [[nodiscard]] PacketFacts facts_of(const net::Received& datagram,
                                    const std::optional<net::Endpoint>& destination);
 
@@ -51,14 +51,14 @@ struct Exit {
     const std::optional<net::Endpoint>& destination;
 };
 
-/// Datagrams that leave in one direction, from a path and its flows, gathered and sent together.
+/// Datagrams that leave in one direction, from a path and its flows, collected and sent together.
 /// Call flush() before their bytes become invalid.
 class Batch {
 public:
     Batch(const Way& way, const Exit& exit) : way_{way}, exit_{exit} {}
 
-    /// Shows a datagram that has arrived to the path that it takes, and adds it if it is not
-    /// delayed.
+    /// Hands a datagram that has arrived to the path that it takes, and adds it to the batch if it
+    /// is not delayed.
     void take(const net::Received& datagram, const Entrance& entrance);
 
     /// Adds a departure of the path, or of a flow beside it.
@@ -71,7 +71,8 @@ public:
         if (departures_.full()) flush();
     }
 
-    /// Ensures that there is a destination: without one, the path admits no datagram.
+    /// Sends the batch. Ensures that there is a destination: without one, the path admits no
+    /// datagram.
     void flush();
 
 private:
@@ -87,8 +88,8 @@ private:
     Each<base::IpMarks> marks_;
 };
 
-/// Names a path and the flows on it to the recorder. The number of the path; those of the flows
-/// follow. Paths are named one after the other.
+/// Registers a path and its flows with the recorder. Returns the number of the path; its flows have
+/// the next numbers. The calls must not overlap.
 [[nodiscard]] inline std::uint32_t add_to(Recorder& recorder, const std::string& path,
                                           std::span<const Flow> flows)
 {
@@ -97,7 +98,7 @@ private:
     return number;
 }
 
-/// Notes whose path it is, and whose those of the flows beside it are, by their numbers.
+/// Stores `owner` under the number of the path and under the numbers of the flows beside it.
 template <typename Owner>
 void put_by_number(std::vector<Owner*>& owners, const EmulatedPath& path, Owner* owner)
 {
@@ -111,10 +112,9 @@ void put_by_number(std::vector<Owner*>& owners, const EmulatedPath& path, Owner*
     }
 }
 
-/// The greatest number of batches of each direction that one release() sends. Their datagrams are
-/// twice those of one receive() with a copy of each. A flood then cannot fill the queue by being
-/// taken faster than it is sent, and the datagrams that it left in the queue become fewer while it
-/// goes on.
+/// The greatest number of batches of each direction that one release() sends. They hold twice the
+/// datagrams of one receive() with a copy of each. So a flood cannot fill the queue by arriving
+/// faster than it is sent, and what it left in the queue becomes less while it continues.
 inline constexpr int release_rounds_max = 32;
 
 /// Sends at most one batch of the datagrams that are due at `now` in a direction. Returns true if

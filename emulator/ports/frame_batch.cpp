@@ -42,7 +42,7 @@ void FrameBatch::add_bytes(std::span<const std::byte> bytes)
     if (bytes_.full()) flush();
 }
 
-/// Its bytes, or a copy of them that has a mark or checksums which they have not.
+/// Returns its bytes, or a copy of them if they leave with a new mark or new checksums.
 std::span<const std::byte> FrameBatch::as_it_leaves(const Datagram& departure)
 {
     const auto bytes = departure.bytes;

@@ -21,18 +21,19 @@ struct FrameWay {
     std::uint32_t pair = 0; // number of its pair of interfaces in the capture
 };
 
-/// The frames that leave from one interface, of all paths that end there: gathered and sent
-/// together. Flush them before their bytes go.
+/// Frames that leave from one interface, from all paths that end there, collected and sent
+/// together. Flush them before their bytes become invalid.
 class FrameBatch {
 public:
-    /// `fixes_checksums`: of all that conditions held for. The socket and the recorder outlive it.
+    /// `fixes_checksums`: recompute the checksums of all frames to which conditions applied. The
+    /// socket and the recorder must outlive the batch.
     FrameBatch(net::PacketSocket& socket, Recorder::Lane& recorder, bool fixes_checksums)
         : socket_{socket}, recorder_{recorder}, fixes_checksums_{fixes_checksums}
     {}
 
     void add(const FrameWay& way, const Datagram& departure);
-    /// A frame that the conditions do not hold for; counted in `lost` if the system does not take
-    /// it, which outlives it.
+    /// Adds a frame to which the conditions do not apply. If the system does not take the frame, it
+    /// is counted in `lost`, which must outlive the batch.
     void add_undisturbed(std::span<const std::byte> bytes, std::uint64_t& lost);
     void flush();
 

@@ -17,8 +17,9 @@ namespace hapnet::emulator::ports {
 
 namespace {
 
-/// The laws know payloads, and add IP and UDP headers where those count (Mtu, Rate). So that they
-/// find the size of the IP packet, as much of it belongs to the envelope.
+/// Returns the length of the envelope. The laws use payload sizes, and add IP and UDP headers where
+/// those count (Mtu, Rate). For them to compute the size of the IP packet, the envelope includes as
+/// many bytes of the packet as these headers have.
 std::uint8_t envelope_of(const Frame& frame, std::size_t frame_bytes)
 {
     return static_cast<std::uint8_t>(std::min(frame.header_bytes + Mtu::header_bytes, frame_bytes));
@@ -31,7 +32,7 @@ std::size_t place_of(const MacAddress& address)
     return hash % 1024;
 }
 
-/// An address that several machines may use.
+/// True for an address that several machines may use.
 bool is_group(const MacAddress& address) { return (address[0] & std::byte{1}) != std::byte{0}; }
 
 } // namespace
@@ -75,7 +76,8 @@ Frames::Frames(const Setup& setup, Paths& paths, Recorder& recorder)
     }
 }
 
-/// The pairs stand in the order of their first ends, and then of their second ones.
+/// Returns the pair of two ends. The pairs are ordered by their first ends, and then by their
+/// second ones.
 Frames::Pair& Frames::pair_of(std::size_t one, std::size_t other)
 {
     const auto [a, b] = std::minmax(one, other);
@@ -88,7 +90,8 @@ void Frames::receive()
     for (const End& end : ends_) watch_interface(end);
 }
 
-/// Without one of the interfaces nothing passes, and the run says nothing about its conditions.
+/// Stops the run if the interface is lost: without it no frame passes, and the run does not
+/// represent its conditions.
 void Frames::watch_interface(const End& end)
 {
     if (end.socket.error() == 0 || is_end_expected_ || failure_) return;
@@ -102,7 +105,8 @@ void Frames::watch_interface(const End& end)
                                  name);
 }
 
-/// The end of the machine that the frame is for; nullopt: it is for a group, or not known.
+/// Returns the end of the machine that the frame is for; nullopt: the frame is for a group, or the
+/// machine is not known.
 std::optional<std::size_t> Frames::end_of(std::span<const std::byte> frame) const
 {
     const auto machine = destination_of(frame);
@@ -147,7 +151,8 @@ void Frames::count(End& from, const net::ReceivedFrame& received, const Frame& f
     }
 }
 
-/// Sends the frames that are not delayed. Call it while the arrived bytes exist: they are theirs.
+/// Sends the frames that are not delayed. Call it while the bytes that arrived are valid, because
+/// the frames refer to them.
 void Frames::send_leaving()
 {
     for (End& end : ends_) end.leaving.flush();
@@ -214,7 +219,7 @@ void Frames::tell_of_oversized(const End& from)
                                        : cure);
 }
 
-/// Answers at once, as if the router were the emulator's interface.
+/// Sends the answer at once, as if the emulator's interface were the router.
 void Frames::answer_too_big(End& from, std::size_t mtu, std::span<const std::byte> frame)
 {
     const auto answer = too_big_answer(frame, mtu);
@@ -223,8 +228,8 @@ void Frames::answer_too_big(End& from, std::size_t mtu, std::span<const std::byt
     if (from.socket.send_batch(batch).front() == net::SendOutcome::sent) ++from.told_too_big;
 }
 
-/// A machine that moves from one end to another again and again stands behind both: frames would
-/// go round for ever.
+/// Watches for a machine whose frames arrive from alternating ends. It is then behind both of them,
+/// and frames would circulate for ever.
 void Frames::watch_for_loop(std::size_t from, const Frame& frame)
 {
     constexpr base::Duration recent = std::chrono::seconds{1};

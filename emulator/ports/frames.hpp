@@ -20,14 +20,14 @@
 
 namespace hapnet::emulator::ports {
 
-/// Network interfaces and a path between each two of them, as a switch that impairs: a frame goes
-/// to the interface behind which the machine is that it is for, and to all others where it is for a
-/// group or a machine that is not known. The switch learns nothing. The datagrams of the paths are
-/// IP packets; their Ethernet headers go with them. ARP and neighbour discovery pass undisturbed.
-/// Moves frames; EmulatedPath takes every decision.
+/// Network interfaces with a path between each two of them, like a switch that impairs. A frame
+/// goes to the interface behind which its destination is. If it is for a group or an unknown
+/// destination, it goes to all other interfaces. The switch does not learn addresses. The datagrams
+/// of the paths are IP packets; their Ethernet headers are passed on with them. ARP and neighbour
+/// discovery pass undisturbed. This class moves frames; EmulatedPath takes every decision.
 class Frames {
 public:
-    /// An interface, and what stands behind it.
+    /// An interface, and what is behind it.
     struct Place {
         std::string name; // "a"
         std::string interface;
@@ -35,17 +35,18 @@ public:
     };
 
     struct Setup {
-        std::vector<Place> ends;      // two or more
-        bool all_frames = false;      // the conditions hold for every frame
-        bool fix_checksums = false;   // recomputed for frames that leave: they hide damage
-        bool stops_at_loop = false;   // ends the run if one machine is heard on both sides
-        bool answers_too_big = false; // tells the sender of what `mtu` drops, as a router would
-        /// Why a packet may be longer than the MTU, and what a person can do; "": the interface
-        /// puts segments together.
+        std::vector<Place> ends;    // two or more
+        bool all_frames = false;    // the conditions apply to every frame
+        bool fix_checksums = false; // recomputes those of frames that leave, which hides damage
+        bool stops_at_loop = false; // ends the run if frames of one machine arrive on both sides
+        // Informs senders about packets that `mtu` drops, like a router
+        bool answers_too_big = false;
+        /// The cause of packets longer than the MTU, and the remedy for a person. "": the interface
+        /// merges segments.
         std::string cure_of_oversized{};
 
-        /// The names of the paths between each two ends: "a-b", "a-c", "b-c". The only path between
-        /// two ends has no name. `up` is from the first to the second.
+        /// Returns the names of the paths between each two ends: "a-b", "a-c", "b-c". The only path
+        /// between two ends has no name. `up` is from the first to the second.
         [[nodiscard]] std::vector<std::string> path_names() const;
     };
 
@@ -62,7 +63,7 @@ public:
         std::uint64_t undisturbed = 0; // frames to which no conditions apply
         std::uint64_t not_ip = 0;
         std::uint64_t oversized = 0;        // longer than the MTU: merged by an interface
-        std::uint64_t lost_undisturbed = 0; // frames among `undisturbed` that were not sent
+        std::uint64_t lost_undisturbed = 0; // undisturbed frames that could not be sent
         std::uint64_t told_too_big = 0;     // answers sent to it about packets too big
     };
 
@@ -79,26 +80,28 @@ public:
     };
 
     /// Adds the paths. Throws std::system_error when an interface cannot be used. The paths and the
-    /// recorder outlive it.
+    /// recorder must outlive it.
     Frames(const Setup& setup, Paths& paths, Recorder& recorder);
 
-    /// Takes what has arrived, at most one batch an end, and sends on at once what is not delayed.
+    /// Takes the frames that have arrived, at most one batch an end, and at once sends those that
+    /// are not delayed.
     void receive();
 
-    /// Sends what is due at `now`; what is left is still due.
+    /// Sends frames that are due at `now`. Those that remain are still due.
     void release(base::TimePoint now);
 
     /// Returns the next message for a person, each only once.
     [[nodiscard]] std::optional<std::string> next_notice();
 
-    /// The reason why the run must end; nullopt: it may go on.
+    /// Returns the reason why the run must end; nullopt: it may continue.
     [[nodiscard]] const std::optional<std::string>& failure() const { return failure_; }
 
-    /// From now on the loss of an interface is no failure, because the program behind it ends.
+    /// Ensures that from now on the loss of an interface is no failure, because the program behind
+    /// it ends.
     void expect_end() { is_end_expected_ = true; }
 
     [[nodiscard]] const std::deque<End>& ends() const { return ends_; }
-    /// The pairs in the order of Setup::path_names().
+    /// Returns the pairs in the order of Setup::path_names().
     [[nodiscard]] const std::deque<Pair>& pairs() const { return pairs_; }
 
 private:
@@ -122,8 +125,8 @@ private:
     std::deque<End> ends_;
     std::deque<Pair> pairs_;
     std::vector<Pair*> by_path_; // indexed by the numbers of paths, also of flows
-    /// The machines heard last, by a hash of their addresses, and where: enough to find a loop,
-    /// which repeats them all the time.
+    /// The machines heard last, by a hash of their addresses, and the end where each was heard.
+    /// That is enough to find a loop, which repeats frames all the time.
     struct Heard {
         MacAddress who{};
         std::size_t end = 0;

@@ -19,8 +19,8 @@
 
 namespace hapnet::emulator::ports {
 
-/// The relays of a run: the only one, which has no name, or those of several links. They are dealt
-/// out to parts, which may be at work side by side, each on a thread of its own.
+/// The relays of a run: the only one, which has no name, or those of several links. They are
+/// distributed over parts, which may work concurrently, each on a thread of its own.
 class Links {
 public:
     using Places = std::vector<NamedEndpoints>;
@@ -28,20 +28,20 @@ public:
     /// A part of the relays.
     class Part {
     public:
-        /// Takes what has arrived, at most one batch of each socket that has something; see
-        /// Relay::receive().
+        /// Takes the datagrams that have arrived, at most one batch of each socket that has any;
+        /// see Relay::receive().
         void receive();
 
-        /// Sends what is due at `now`.
+        /// Sends the datagrams that are due at `now`.
         void release(base::TimePoint now);
 
-        /// The descriptors to wait for.
+        /// Returns the descriptors to wait for.
         [[nodiscard]] std::vector<int> descriptors() const;
 
-        /// Returns when to call release() though no datagram is due and no conditions change.
+        /// Returns when to call release() even if no datagram is due and no conditions change.
         [[nodiscard]] static std::optional<base::TimePoint> next_deadline() { return std::nullopt; }
 
-        /// A sentence about one of the links; see Relay::next_notice().
+        /// Returns a sentence about one of the links; see Relay::next_notice().
         [[nodiscard]] std::optional<std::string> next_notice();
 
     private:
@@ -54,9 +54,9 @@ public:
         std::vector<Relay*> by_path_; // indexed by the numbers of paths, also of flows
     };
 
-    /// Binds all sockets. A part for each of the paths: the links are dealt out in turn. Throws
-    /// std::system_error when it cannot. The paths and the recorder, with as many lanes, outlive
-    /// it.
+    /// Binds all sockets. Makes one part for each of the paths, and distributes the links over them
+    /// in turn. Throws std::system_error when a socket cannot be bound. The paths and the recorder,
+    /// which has as many lanes, must outlive the links.
     Links(const Places& places, const std::vector<std::unique_ptr<Paths>>& paths,
           Recorder& recorder);
 
@@ -68,10 +68,10 @@ public:
 
     [[nodiscard]] std::vector<std::unique_ptr<Part>>& parts() { return parts_; }
 
-    /// The relays, in the order of their places.
+    /// Returns the relays, in the order of their places.
     [[nodiscard]] const std::vector<std::unique_ptr<Relay>>& relays() const { return relays_; }
 
-    /// The addresses that the sockets are bound to.
+    /// Returns the addresses that the sockets are bound to.
     [[nodiscard]] std::vector<net::Endpoint> locals() const;
 
 private:

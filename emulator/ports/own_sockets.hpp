@@ -10,9 +10,9 @@
 
 namespace hapnet::emulator::ports {
 
-/// The emulator's own sockets. A datagram that seems to come from one of them is forged, or one of
-/// its own that has come back: let in, it would go round for ever. For any thread; asked only
-/// about senders that are not known.
+/// The emulator's own sockets. A datagram that seems to come from one of them is forged, or is one
+/// of the emulator's own that came back. If it were accepted, it would circulate for ever. Call it
+/// from any thread. It is asked only about unknown senders.
 class OwnSockets {
 public:
     void add(const net::Endpoint& local);

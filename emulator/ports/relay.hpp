@@ -20,8 +20,8 @@
 
 namespace hapnet::emulator::ports {
 
-/// Two sockets and the path between them. Moves datagrams; EmulatedPath and EndpointFilter take
-/// every decision.
+/// Two sockets and the path between them. Relay moves datagrams; EmulatedPath and EndpointFilter
+/// take every decision.
 class Relay {
 public:
     /// The place of a relay among the relays of a run: its name (empty for a single relay), all
@@ -34,18 +34,18 @@ public:
         Recorder::Lane& recorder;
     };
 
-    /// Binds both sockets. Throws std::system_error when it cannot. The paths and what it is among
-    /// outlive it.
+    /// Binds both sockets. Throws std::system_error when one cannot be bound. The paths and
+    /// everything that `among` refers to must outlive the relay.
     Relay(const Endpoints& endpoints, Paths& paths, const Among& among);
     Relay(const Relay&) = delete;
     Relay& operator=(const Relay&) = delete;
     ~Relay() = default;
 
-    /// Takes what has arrived, at most one batch a side, so that a flood cannot hold up what is
-    /// due, and sends on at once what is not delayed. Conditions that change in the meantime hold
-    /// from the first datagram that arrived after their time.
+    /// Takes the datagrams that have arrived, at most one batch a side, so that a flood cannot
+    /// delay what is due, and at once sends those that are not delayed. Conditions that change in
+    /// the meantime affect the datagrams that arrived after the change.
     void receive();
-    /// Takes what has arrived on one side, like receive().
+    /// Takes the datagrams that have arrived on one side, like receive().
     void receive_from_a() { pass(a_, b_); }
     void receive_from_b() { pass(b_, a_); }
 
@@ -54,7 +54,7 @@ public:
     /// stay due.
     void release(EmulatedPath& path, base::TimePoint now);
 
-    /// Why a datagram was dropped before the path saw it.
+    /// The reason why a datagram was dropped before the path saw it.
     enum class Refusal : std::uint8_t { is_own, not_allowed, not_the_peer, side_is_taken };
 
     /// The sender of a dropped datagram, and the reason.

@@ -36,8 +36,8 @@ Upstream::Client::Client(std::uint64_t its_number, const net::Endpoint& its_addr
 
 namespace {
 
-/// Sockets at one place, one for each part. What came while not all of them were there may have
-/// come to the wrong one.
+/// Returns sockets at one address, one for each part. Datagrams that arrived before all of them
+/// existed may be in the wrong one, so they are discarded.
 std::vector<net::UdpSocket> sockets_at(const net::Endpoint& place, std::size_t count)
 {
     std::vector<net::UdpSocket> sockets;
@@ -140,8 +140,8 @@ Upstream::Part::Part(Common& common, net::UdpSocket listening, Paths& paths,
       clients_(common.setup.clients_max)
 {}
 
-/// Names a client by its number, or by its address if that was asked for. By address, a client that
-/// comes again is another one: "client.10.0.0.1:5000#2".
+/// Returns the name of a client: its number, or its address if that is requested. By address, a
+/// client that returns gets another name: "client.10.0.0.1:5000#2".
 std::string Upstream::Part::name_of(const Client& client)
 {
     constexpr std::size_t remembered_max = 65'536;
@@ -169,7 +169,8 @@ void Upstream::Part::refuse(const net::Received& datagram, const std::string& wh
     turn_away(datagram, why);
 }
 
-/// The client that sent it, which may be a new one; null: it is to be dropped.
+/// Returns the client that sent the datagram, which may be a new one; null: the datagram is to be
+/// dropped.
 Upstream::Client* Upstream::Part::client_of(const net::Received& datagram)
 {
     if (const auto known = table_.find(datagram.from, datagram.at)) return clients_[*known].get();
@@ -183,7 +184,7 @@ Upstream::Client* Upstream::Part::client_of(const net::Received& datagram)
         turn_away(datagram, "as --allow does not name it");
         return nullptr;
     }
-    // Each part has a place for all of them.
+    // Each part has places for all clients.
     const std::scoped_lock guard{common_.lock};
     if (common_.present >= common_.setup.clients_max) {
         refuse(datagram, fmt::format("as there are {} clients already: raise --clients, or lower "
@@ -198,7 +199,7 @@ Upstream::Client* Upstream::Part::client_of(const net::Received& datagram)
     return clients_[*place].get();
 }
 
-/// A new client; null: the system refuses.
+/// Returns a new client; null: the system refuses.
 std::unique_ptr<Upstream::Client> Upstream::Part::admit(const net::Received& datagram,
                                                         std::size_t place)
 {
@@ -291,7 +292,7 @@ bool has_nothing_in_flight(const EmulatedPath& path)
 } // namespace
 
 /// Forgets idle clients once their datagrams in flight are delivered. All clients are checked when
-/// the first of them may be idle, not in each round. One that has been heard since is not idle.
+/// the first of them may be idle, not in each round. A client that has sent since then is not idle.
 void Upstream::Part::forget_idle(base::TimePoint now)
 {
     if (!base::is_due(next_look_, now)) return;

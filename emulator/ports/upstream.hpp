@@ -26,18 +26,19 @@
 
 namespace hapnet::emulator::ports {
 
-/// A server and its clients: each address that sends gets a socket of its own to the server, and
-/// an emulated path of its own. It works like a NAT for UDP, but only for addresses that it may let
-/// in. It moves datagrams; EmulatedPath, ClientTable and AddressSet take every decision.
+/// A server and its clients. Each address that sends gets a socket of its own to the server, and an
+/// emulated path of its own. This works like a NAT for UDP, but only for permitted addresses.
+/// Upstream moves datagrams; EmulatedPath, ClientTable and AddressSet take every decision.
 ///
-/// The clients are in parts, which may be at work side by side, each on a thread of its own. Where
-/// there are several, the kernel deals out the clients by their addresses.
+/// The clients are in parts, which may work concurrently, each on a thread of its own. Where there
+/// are several parts, the kernel distributes the clients by their addresses.
 class Upstream {
 public:
     struct Setup {
         std::size_t clients_max = 64;
         base::Duration idle = std::chrono::seconds{60}; // silent clients are forgotten after this
-        bool named_by_address = false;                  // names of clients' paths; false: by number
+        // Paths of clients are named by address; false: by number
+        bool named_by_address = false;
     };
 
     /// A client and its path. `up` is from the client to the server.
@@ -74,29 +75,30 @@ public:
 
     class Part;
 
-    /// Binds the sockets. A part for each of the paths. Throws std::system_error when it cannot.
-    /// The paths and the recorder, with as many lanes, outlive it.
+    /// Binds the sockets. Makes one part for each of the paths. Throws std::system_error when a
+    /// socket cannot be bound. The paths and the recorder, which has as many lanes, must outlive
+    /// it.
     Upstream(ServerAndClients places, Setup setup, const std::vector<std::unique_ptr<Paths>>& paths,
              Recorder& recorder);
 
     [[nodiscard]] std::vector<std::unique_ptr<Part>>& parts() { return parts_; }
 
-    // Facts about all parts together. Call these only while no part is at work.
+    // Facts about all parts together. Call these functions only while no part is at work.
 
     [[nodiscard]] const net::Endpoint& local() const;
-    /// The addresses that the sockets are bound to, except the sockets to the server.
+    /// Returns the addresses that the sockets are bound to, except the sockets to the server.
     [[nodiscard]] std::vector<net::Endpoint> locals() const { return {local()}; }
     [[nodiscard]] const net::Endpoint& server() const { return common_.places.server; }
-    /// The clients, in the order of their numbers.
+    /// Returns the clients, in the order of their numbers.
     [[nodiscard]] std::vector<const Client*> clients() const;
     [[nodiscard]] std::uint64_t clients_seen() const { return common_.numbered; }
     [[nodiscard]] Departed departed() const;
-    /// Datagrams from addresses that may not be clients, and from those for which there was no
-    /// place.
+    /// Returns the number of datagrams from addresses that may not be clients, and from those for
+    /// which there was no place.
     [[nodiscard]] std::uint64_t strangers() const;
     [[nodiscard]] std::uint64_t refused() const;
     [[nodiscard]] std::uint64_t overflowed() const;
-    /// Answers of clients that no program listens there.
+    /// Returns the number of answers from clients that no program listens there.
     [[nodiscard]] std::uint64_t unreachable() const;
 
 private:
@@ -121,23 +123,23 @@ public:
     /// `common`, `paths` and `recorder` have to outlive the part.
     Part(Common& common, net::UdpSocket listening, Paths& paths, Recorder::Lane& recorder);
 
-    /// Takes what has arrived, at most one batch of each socket, and sends on at once what is not
-    /// delayed.
+    /// Takes the datagrams that have arrived, at most one batch of each socket, and at once sends
+    /// those that are not delayed.
     void receive();
 
-    /// Sends what is due at `now`, and forgets who has been silent.
+    /// Sends the datagrams that are due at `now`, and forgets clients that have been silent.
     void release(base::TimePoint now);
 
-    /// The time when a client may have to be forgotten.
+    /// Returns the time when a client may have to be forgotten.
     [[nodiscard]] std::optional<base::TimePoint> next_deadline() const { return next_look_; }
 
-    /// The descriptors to wait for.
+    /// Returns the descriptors to wait for.
     [[nodiscard]] std::vector<int> descriptors() const
     {
         return {listening_.descriptor(), answers_.descriptor()};
     }
 
-    /// A sentence about a client that was turned away, or that came; each once.
+    /// Returns a sentence about a new client, or about one that was refused, each once.
     [[nodiscard]] std::optional<std::string> next_notice();
 
 private:

@@ -19,7 +19,7 @@ double mean_of(std::span<const double> values)
     return sum / static_cast<double>(values.size());
 }
 
-/// The standard error of the mean of values in a row.
+/// Returns the standard error of the mean of consecutive values.
 double error_of_mean(std::span<const double> values)
 {
     const double mean = mean_of(values);
@@ -30,7 +30,7 @@ double error_of_mean(std::span<const double> values)
         if (i > 0) products += (values[i] - mean) * (values[i - 1] - mean);
     }
     if (squares <= 0.0) return 0.0;
-    constexpr double most = 0.99; // as for a series that only rises
+    constexpr double most = 0.99; // reached by a series that only rises
     const double correlation = std::clamp(products / squares, 0.0, most);
     const auto n = static_cast<double>(values.size());
     const double independent = std::sqrt(squares / (n - 1.0) / n);
@@ -63,8 +63,8 @@ void BatchMeans::add(double value)
     batch_size_ *= 2.0;
 }
 
-/// The deviation's error is that of the mean squared deviation from the mean of all, by
-/// d(sd) = d(variance) / (2 sd).
+/// The error of the deviation follows from that of the mean squared deviation from the overall
+/// mean, by d(sd) = d(variance) / (2 sd).
 std::optional<Precision> BatchMeans::precision() const
 {
     if (batches_.size() < batches_min) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<Precision> BatchMeans::precision() const
     const auto share = [](double error, double of) {
         return error <= 0.0 ? 0.0 : widths_of_95_percent * error / std::abs(of);
     };
-    // Below a millionth of the values a variance is rounding.
+    // A variance below a millionth of the values is due to rounding.
     const double scale = std::abs(origin_ + shift);
     const bool is_constant = variance <= 1e-12 * scale * scale;
     if (is_constant) return Precision{};

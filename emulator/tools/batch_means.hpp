@@ -23,10 +23,11 @@ constexpr auto fields_of(base::Tag<Precision>)
                         base::member("sd", &Precision::sd));
 }
 
-/// Tells by the method of batch means (Law, "Simulation Modeling and Analysis", 9.5.3) how far a
-/// series whose neighbours may be correlated has settled. Keeps 32 to 63 batches of equal length:
-/// when there would be more, neighbours are joined. The rest of the correlation between the batches
-/// widens the interval as for an autoregressive series of first order.
+/// Estimates by the method of batch means (Law, "Simulation Modeling and Analysis", 9.5.3) how
+/// precisely the mean and deviation of a series are known. Neighbouring values may be correlated.
+/// It keeps 32 to 63 batches of equal length: when there would be more, neighbours are joined. The
+/// remaining correlation between the batches widens the interval as for an autoregressive series of
+/// first order.
 class BatchMeans {
 public:
     static constexpr std::size_t batches_min = 32;

@@ -157,8 +157,8 @@ std::string reorder_in_words(const Reordering& reorder)
                            : fmt::format("{} behind their turn", in_ms(displacement.time)));
 }
 
-/// Returns a setting that would keep the order without making the delay longer. A trace has the
-/// correlation that was recorded.
+/// Returns a setting that would keep the order without making the delay longer. The correlation of
+/// a trace is the recorded one.
 std::string_view remedy_of(const Conditions& conditions)
 {
     const auto is_trace = [](const Variation& variation) {
@@ -175,7 +175,7 @@ bool varies(const Variation& variation)
     return !DelayTheory{variation.law}.constant().has_value();
 }
 
-/// "regime bad: 4.76 % of the time, stays of 150 ms on average, then good"
+/// Returns "regime bad: 4.76 % of the time, stays of 150 ms on average, then good".
 std::string regime_in_words(std::span<const Regime> regimes, std::size_t index, bool are_together)
 {
     const auto followers = followers_of(regimes, index);

@@ -10,16 +10,17 @@
 
 namespace hapnet::emulator::tools {
 
-/// One sentence for each stage of a direction that does something, in the order of the stages, with
-/// what theory says of it.
+/// Returns one sentence for each stage of a direction that has an effect, in the order of the
+/// stages, with its theoretical properties.
 [[nodiscard]] std::vector<std::string> describe(const Conditions& conditions, const Stream& stream);
 
-/// Effects on a stream that a user may not have meant, with the numbers that `prediction` found.
+/// Returns sentences about effects on a stream that a user may not have intended, with the numbers
+/// of `prediction`.
 [[nodiscard]] std::vector<std::string> warnings(const Conditions& conditions, const Stream& stream,
                                                 const DirectionPrediction& prediction);
 
-/// Why mean and deviation of the delay are not known better, and what to do; "" where they have
-/// settled. `changes`: the conditions have a timeline.
+/// Returns why mean and deviation of the delay are not known more precisely, and what to do; "" if
+/// they have settled. `changes`: the conditions have a timeline.
 [[nodiscard]] std::string why_unsettled(const Conditions& conditions, const Stream& stream,
                                         const DirectionPrediction& prediction, bool changes);
 

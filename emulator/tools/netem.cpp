@@ -29,7 +29,7 @@ base::Duration scaled(base::Duration duration, double by)
     return base::Duration{std::llround(base::to_nanoseconds(duration) * by)};
 }
 
-/// The settings of the sentence, before they are put together.
+/// The settings of the sentence, before they are combined.
 struct NetemSettings {
     base::Duration delay{};
     base::Duration jitter{};
@@ -46,7 +46,7 @@ struct NetemSettings {
     std::vector<std::string> warnings;
 };
 
-/// Warns that netem, with this correlation, draws another share than this one.
+/// Warns that netem, with this correlation, draws a share that differs from this one.
 void warn_of_correlated(std::string_view verb, Probability share, Probability correlation,
                         NetemSettings& said)
 {
@@ -93,7 +93,7 @@ void read_gemodel(NetemWords& words, NetemSettings& said)
     said.loss.push_back(law);
 }
 
-/// The four-state chain by what it amounts to (Salsano et al. 2012).
+/// Returns the four-state chain in its intuitive parameters (Salsano et al. 2012).
 FourState in_words(double p13, double p31, double p32, double p23, double p14)
 {
     const double in_gap = 1.0 / (1.0 + p13 / p31 + p13 * p32 / (p31 * p23) + p14);
@@ -117,7 +117,7 @@ void read_states(NetemWords& words, NetemSettings& said)
     const auto p14 = words.optional_share().value_or(Probability{});
     const auto lossy = *Probability::from_fraction(1.0);
     if (p13.fraction() == 0.0) {
-        // Only single losses: a bad state that is left at once.
+        // Only single losses: the bad state is left at once.
         if (p14.fraction() > 0.0) said.loss.push_back(GilbertElliott{p14, lossy, {}, lossy});
         return;
     }
@@ -192,7 +192,7 @@ void read_rate(NetemWords& words, NetemSettings& said)
     }
 }
 
-/// One option of the sentence, by its first word.
+/// Reads one option of the sentence, by its first word.
 void read_option(NetemWords& words, NetemSettings& said)
 {
     struct Option {
@@ -232,7 +232,7 @@ void read_option(NetemWords& words, NetemSettings& said)
         fmt::format("unknown netem option '{}': {}", word, base::suggestion(word, usual)));
 }
 
-/// The jitter, and the delay that goes with it.
+/// Sets the jitter, and the delay that belongs to it.
 void put_delay(NetemWords& words, NetemSettings& said, Conditions& conditions)
 {
     conditions.delay = constant(said.delay);
@@ -364,7 +364,8 @@ base::Result<NetemProfile> parse_netem(std::string_view sentence)
     conditions.duplicate = said.duplicate;
     if (said.rate.bits_per_second > 0) {
         conditions.rate = said.rate;
-        // netem's queue counts packets; of full size, to be on its side.
+        // netem's queue counts packets. They count with full size here, so that the limit is not
+        // too strict.
         conditions.rate.queue_bytes_max = static_cast<std::size_t>(said.limit) * 1514;
     }
     for (const auto& time : words.bare_times()) {
@@ -381,8 +382,8 @@ double netem_correlated_share(double share, double correlation)
     constexpr std::size_t steps = 4096;
     constexpr double width = 1.0 / static_cast<double>(steps);
     const double rho = std::min(correlation, 0.999);
-    // F(x) = P(X <= x) on a grid, and its integral; F goes over into the mean of F over the X'
-    // that lead there, until it stays.
+    // F(x) = P(X <= x) on a grid, and its integral. F is iterated to convergence: the new F is the
+    // mean of F over the X' that lead to X <= x.
     std::vector<double> f(steps + 1);
     std::vector<double> sum(steps + 1);
     for (std::size_t i = 0; i <= steps; ++i) f[i] = static_cast<double>(i) * width;

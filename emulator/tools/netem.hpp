@@ -13,8 +13,9 @@
 
 namespace hapnet::emulator::tools {
 
-/// A sentence of tc-netem(8) as conditions of one direction, with a warning for everything that
-/// netem would not have done as it says, or that is done differently here.
+/// The translation of a sentence of tc-netem(8) into conditions of one direction. It has a warning
+/// for everything that netem would not have done as the sentence says, and for everything that is
+/// done differently here.
 struct NetemProfile {
     Conditions conditions;
     std::optional<base::Seed> seed;
@@ -34,9 +35,9 @@ struct NetemProfile {
 /// - `loss state` becomes the four-state model, or Gilbert's where it is only that.
 [[nodiscard]] base::Result<NetemProfile> parse_netem(std::string_view sentence);
 
-/// The share that netem really loses where it is told `share` with this correlation: the stationary
-/// probability of X <= share for X = (1 - correlation) U + correlation X', U uniform, X' the X
-/// before (net/sched/sch_netem.c, get_crandom). Within 1e-4 for correlations up to 0.99.
+/// Returns the share that netem really loses with a configured `share` and this correlation: the
+/// stationary probability of X <= share for X = (1 - correlation) U + correlation X', U uniform, X'
+/// the previous X (net/sched/sch_netem.c, get_crandom). Within 1e-4 for correlations up to 0.99.
 [[nodiscard]] double netem_correlated_share(double share, double correlation);
 
 } // namespace hapnet::emulator::tools

@@ -137,7 +137,7 @@ base::Duration NetemWords::time()
 base::Probability NetemWords::share()
 {
     auto word = take("a share, such as 1%");
-    if (!word.ends_with('%')) word += '%'; // tc reads a bare number as per cent
+    if (!word.ends_with('%')) word += '%'; // tc reads a number without a unit as per cent
     const auto share = base::parse_probability(word);
     if (!share) complain(share.error().message);
     return share.value_or(base::Probability{});

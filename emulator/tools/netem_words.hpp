@@ -14,22 +14,22 @@
 
 namespace hapnet::emulator::tools {
 
-/// The words of a tc sentence, read one after the other, in the units of tc; keeps the first
-/// complaint about them. Words after a complaint no longer matter.
+/// Reads the words of a tc sentence one after the other, in the units of tc. It keeps the first
+/// error; words after an error have no effect.
 class NetemWords {
 public:
     explicit NetemWords(std::string_view sentence);
 
     [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
-    /// `expected` is what a sentence that ends here lacks: "a time, such as 80ms".
+    /// Takes the next word. `expected` describes what is missing if the sentence ends here: "a
+    /// time, such as 80ms".
     [[nodiscard]] std::string take(std::string_view expected);
-    /// Takes the next word if it is this one.
+    /// Takes the next word if it equals `word`.
     [[nodiscard]] bool take_if(std::string_view word);
 
-    // Each function takes the next word. The optional ones take it only where it begins like a
-    // number.
+    // Each function takes the next word. The optional ones take it only if it begins like a number.
 
-    /// A bare number is in microseconds, and is remembered in bare_times().
+    /// Takes a time. A number without a unit is in microseconds, and is stored in bare_times().
     [[nodiscard]] base::Duration time();
     [[nodiscard]] base::Probability share();
     [[nodiscard]] std::uint64_t count(std::uint64_t most);
@@ -40,7 +40,7 @@ public:
 
     void complain(const std::string& what);
     [[nodiscard]] const std::optional<std::string>& complaint() const { return complaint_; }
-    /// Times that were written without a unit.
+    /// Returns the times that were written without a unit.
     [[nodiscard]] const std::vector<std::string>& bare_times() const { return bare_times_; }
 
 private:

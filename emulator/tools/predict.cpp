@@ -12,7 +12,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// Counts the losses of one direction, and takes its delays.
+/// Counts the losses of one direction, and collects its delays.
 class Outcomes {
 public:
     void add_departure(const Datagram& datagram, base::TimePoint at)
@@ -57,7 +57,7 @@ private:
     std::uint64_t run_ = 0; // length of the run of losses in progress
 };
 
-/// A stream on its way through a path.
+/// A stream that is sent through a path.
 class Play {
 public:
     Play(const Profile& profile, const Stream& stream, base::Seed seed)
@@ -69,7 +69,7 @@ public:
         base::ensure(stream.spacing > base::Duration{0} && stream.bytes <= 65'507);
     }
 
-    /// Sends on until there were `packets` each way.
+    /// Continues sending until `packets` were sent in each direction.
     void go_on_to(std::uint64_t packets)
     {
         for (; sent_ < packets; ++sent_, now_ += spacing_) {
@@ -91,7 +91,7 @@ public:
 
     [[nodiscard]] bool is_settled() const { return up_.is_settled() && down_.is_settled(); }
 
-    /// Lets everything leave.
+    /// Lets all datagrams leave.
     [[nodiscard]] Prediction finish()
     {
         while (const auto due = path_.next_due()) drain(*due);
@@ -110,7 +110,7 @@ private:
         path_.on_sent(direction, datagram, at);
     }
 
-    /// Lets leave what is due before or at `now`, each at its own time.
+    /// Lets the datagrams that are due at or before `now` leave, each at its own time.
     void drain(base::TimePoint now)
     {
         for (auto due = path_.next_due(); base::is_due(due, now); due = path_.next_due()) {

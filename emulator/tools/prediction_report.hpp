@@ -60,7 +60,8 @@ constexpr auto fields_of(base::Tag<StreamReport>)
 
 namespace hapnet::emulator::tools {
 
-/// One direction of a prediction, and its conditions. Everything that it refers to outlives it.
+/// The report on one direction of a prediction, and its conditions. Everything that it refers to
+/// must outlive it.
 struct DirectionForecast {
     const DirectionPrediction* of = nullptr;
     const Conditions* conditions = nullptr;
@@ -70,11 +71,11 @@ struct DirectionForecast {
     [[nodiscard]] std::vector<std::string> theory() const;
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] std::string why_unsettled() const;
-    /// Returns nullopt when nothing settles.
+    /// Returns the precision; nullopt when nothing settles.
     [[nodiscard]] std::optional<Precision> precision() const;
-    /// The drops by cause. Only the causes that occurred are listed.
+    /// Returns the drops by cause. Only the causes that occurred are listed.
     [[nodiscard]] base::Entries<std::uint64_t> dropped() const;
-    /// The share of departures that were out of order.
+    /// Returns the share of departures that were out of order.
     [[nodiscard]] double reordered_share() const;
 };
 constexpr auto fields_of(base::Tag<DirectionForecast>)

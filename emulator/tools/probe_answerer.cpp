@@ -12,7 +12,7 @@ std::optional<ProbeMessage> ProbeAnswerer::answer(const ProbeMessage& question,
     if (question.is_answer) return std::nullopt;
     Session& session = session_of(question.session);
     session.last = received;
-    // One too old to tell is taken for a copy.
+    // A question that is too old to decide counts as a copy.
     if (session.questions.add(question.sequence) == base::Seen::no) ++session.heard;
     ProbeMessage answer = question;
     answer.is_answer = true;
@@ -23,7 +23,7 @@ std::optional<ProbeMessage> ProbeAnswerer::answer(const ProbeMessage& question,
     return answer;
 }
 
-/// A new one takes the place of the one that has been silent longest.
+/// Returns the session. A new one replaces the one that has been silent longest.
 ProbeAnswerer::Session& ProbeAnswerer::session_of(std::uint64_t id)
 {
     const auto known = std::ranges::find(sessions_, id, &Session::id);

@@ -13,14 +13,14 @@
 
 namespace hapnet::emulator::tools {
 
-/// Answers the questions of a probe, and counts them, so that the asking side can tell a lost
-/// question from a lost answer. Remembers the sessions heard last; does no I/O.
+/// Answers the questions of a probe, and counts them, so that the asking side can distinguish a
+/// lost question from a lost answer. It remembers the most recent sessions. Does no I/O.
 class ProbeAnswerer {
 public:
     explicit ProbeAnswerer(std::uint64_t boot) : boot_{boot} {}
 
-    /// The answer to a question that came at `received`; nullopt to an answer, so that two of
-    /// these cannot answer each other. Fill in `answered` when it leaves.
+    /// Returns the answer to a question that arrived at `received`; nullopt for an answer, so that
+    /// two answerers cannot answer each other. Set `answered` when the answer leaves.
     [[nodiscard]] std::optional<ProbeMessage> answer(const ProbeMessage& question,
                                                      base::TimePoint received);
 

@@ -16,7 +16,8 @@ constexpr std::uint8_t probe_version = 1;
 constexpr std::size_t checksum_at = 8;
 constexpr std::size_t checksum_end = 16;
 
-/// FNV-1a. Each of its steps is a bijection of the sum so far, so one changed byte changes it.
+/// FNV-1a. Each of its steps is a bijection of the previous sum, so changing one byte changes the
+/// sum.
 class Checksum {
 public:
     void add(std::span<const std::byte> bytes)
@@ -47,7 +48,7 @@ base::TimePoint time_of(std::int64_t nanoseconds)
 
 std::int64_t number_of(base::TimePoint time) { return time.time_since_epoch().count(); }
 
-/// A time that a clock since boot can show: sums of such times do not overflow.
+/// True for a time that a clock since boot can show. Sums of such times do not overflow.
 bool is_sane(base::TimePoint time)
 {
     constexpr std::int64_t centuries = std::int64_t{1} << 61;

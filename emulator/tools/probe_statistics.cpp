@@ -92,7 +92,8 @@ ProbeSummary ProbeStatistics::summary() const
     summary.round_trip = way([](const Row& row) { return row.there + row.back; }, true);
     summary.there = way([](const Row& row) { return row.there; }, clocks_are_one());
     summary.back = way([](const Row& row) { return row.back; }, clocks_are_one());
-    // It is unknown which questions the other side heard after the last one whose answer arrived.
+    // It is not known which questions the other side received after the last one whose answer
+    // arrived.
     const auto heard = std::clamp(heard_, answered, beyond_answered);
     summary.there.lost = beyond_answered - heard;
     summary.back.lost = heard - answered;

@@ -16,16 +16,16 @@
 
 namespace hapnet::emulator::tools {
 
-/// An answer that came.
+/// An answer that arrived.
 struct ProbeReply {
     std::uint64_t sequence = 0;
     base::Duration round_trip{}; // does not include the time in the answering program
-    base::Duration there{};      // this and `back` hold if clocks_are_one()
+    base::Duration there{};      // this and `back` are valid if clocks_are_one()
     base::Duration back{};
-    bool is_copy = false; // an earlier answer to the question has come
+    bool is_copy = false; // an answer to the question arrived before
 };
 
-/// Delays of a way. Quantiles are values that occurred.
+/// Delays of one direction. Quantiles are values that occurred.
 struct ProbeDelays {
     base::Duration min{};
     base::Duration mean{};
@@ -68,7 +68,7 @@ struct ProbeSummary {
     ProbeWay back{};
     std::uint64_t unknown = 0;
 
-    /// The share of questions without an answer.
+    /// Returns the share of questions without an answer.
     [[nodiscard]] double loss() const;
 };
 constexpr auto fields_of(base::Tag<ProbeSummary>)
@@ -106,20 +106,21 @@ constexpr auto fields_of(base::Tag<ProbeReport>)
         base::member("target", &R::target, "Who was asked."), base::part(&R::summary));
 }
 
-/// Statistics of a probe: the questions that it sent and the answers that came back. Does no I/O
-/// and reads no clock.
+/// The statistics of a probe: the questions that it sent and the answers that came back. Does no
+/// I/O and reads no clock.
 class ProbeStatistics {
 public:
-    /// `boot`: of this machine.
+    /// `boot` is the number of this machine's boot.
     ProbeStatistics(std::uint64_t session, std::uint64_t boot) : session_{session}, boot_{boot} {}
 
-    /// The greatest number of questions: each has a row in memory.
+    /// The greatest number of questions. Each has a row in memory.
     static constexpr std::uint64_t questions_max = 10'000'000;
 
-    /// The next question, which leaves at `now`. Ensures that there are fewer than questions_max.
+    /// Returns the next question, which leaves at `now`. Ensures that there were fewer than
+    /// questions_max.
     [[nodiscard]] ProbeMessage next_question(base::TimePoint now);
 
-    /// Takes an answer. Returns nullopt for one that answers none of these questions.
+    /// Takes an answer. Returns nullopt if it does not belong to any of these questions.
     std::optional<ProbeReply> on_answer(const ProbeMessage& answer, base::TimePoint arrived);
 
     [[nodiscard]] std::uint64_t sent() const { return rows_.size(); }
@@ -134,13 +135,14 @@ public:
 
     [[nodiscard]] ProbeSummary summary() const;
 
-    /// A line for each question, with a header; docs/use/probe.md has the columns.
+    /// Returns a table with a header and a line for each question; docs/use/probe.md describes the
+    /// columns.
     [[nodiscard]] std::string csv() const;
 
 private:
     struct Row {
         base::TimePoint sent{};
-        base::Duration there{}; // by two clocks: includes their offset
+        base::Duration there{}; // if measured by two clocks, it includes their offset
         base::Duration back{};
         std::uint32_t answers = 0;
     };
@@ -151,7 +153,7 @@ private:
     std::uint64_t boot_;
     std::vector<Row> rows_; // indexed by sequence number
     base::ArrivalCounter answers_{0};
-    std::uint64_t heard_ = 0; // questions heard by the other side, as it last said
+    std::uint64_t heard_ = 0; // number of questions received by the other side, as last reported
     base::Duration longest_{};
     bool clocks_are_one_ = true;
 };

@@ -9,8 +9,8 @@
 
 namespace hapnet::device::dhd {
 
-/// Exchanges with an open device by the library's calls, force first: so that what hangs in between
-/// never leaves an old one to be sent. Closes the device at its end.
+/// Exchanges data with an open device by the library's calls. The force is sent first, so that no
+/// call that hangs before it can make it outdated. The destructor closes the device.
 class DhdExchange final : public polled::Exchange {
 public:
     DhdExchange(const Functions& functions, Id device) : functions_{functions}, device_{device} {}
@@ -27,7 +27,7 @@ private:
     Functions functions_;
     Id device_;
     Interpreter interpreter_;
-    std::optional<bool> motors_on_{}; // state that the library was told last; nullopt: none yet
+    std::optional<bool> motors_on_{}; // state last set in the library; nullopt: none yet
 };
 
 } // namespace hapnet::device::dhd

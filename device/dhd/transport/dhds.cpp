@@ -58,7 +58,7 @@ Identity identity_of(std::string serial, std::string model)
             .note = std::string{never_run}};
 }
 
-/// Printable ASCII of a text of the library's; "" for null.
+/// Returns the printable ASCII of a text from the library; "" for null.
 std::string shown(const char* text)
 {
     constexpr std::size_t bytes_max = 200;
@@ -69,13 +69,14 @@ std::string shown(const char* text)
     return it;
 }
 
-/// A device that is open, by its number, and its serial number; what it says is not asked twice.
+/// An open device, with its number and its serial number, so that the library is not asked for them
+/// twice.
 struct OpenDevice {
     Id id;
     std::string serial;
 };
 
-/// Opens the one at this place on the bus, its motors off; the error is the library's code.
+/// Opens the device at this index on the bus, with its motors off. The error is the library's code.
 tl::expected<OpenDevice, int> open_at(const Functions& functions, int index)
 {
     const int id = functions.open_id(static_cast<Id>(index));

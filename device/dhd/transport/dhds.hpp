@@ -10,8 +10,8 @@
 
 namespace hapnet::device::dhd {
 
-/// Devices of Force Dimension on the USB. The library is loaded to see whether it can be, but no
-/// device is touched.
+/// Returns the devices of Force Dimension on the USB. The library is loaded to test whether it can
+/// be loaded, but no device is opened.
 [[nodiscard]] std::vector<Found> find_dhds(const std::string& library);
 
 /// Opens the device with this serial number; "": the first one.

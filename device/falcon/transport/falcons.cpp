@@ -80,7 +80,7 @@ std::vector<UsbDevice> falcons_of(libusb_context* context)
     return falcons;
 }
 
-/// Such as "usb-1-2.3": the bus, then the ports on the way.
+/// Returns a name such as "usb-1-2.3": the bus, then the ports on the path to the device.
 std::string port_of(libusb_device* device)
 {
     constexpr int depth_max = 7; // longest port path in USB 3.0
@@ -126,7 +126,7 @@ Candidate open_usb(libusb_device* device)
     return {serial_of(device, handle), Handle{handle}};
 }
 
-/// Takes hold of its interface, if need be from the kernel's driver for FTDI's chips.
+/// Claims the device's interface, if necessary from the kernel's driver for FTDI's chips.
 std::optional<DeviceError> claim(libusb_device_handle* handle, const std::string& serial)
 {
     libusb_set_auto_detach_kernel_driver(handle, 1);
@@ -139,7 +139,8 @@ std::optional<DeviceError> error_with(Candidate& candidate)
 {
     if (!candidate.handle) return candidate.handle.error();
     libusb_device_handle* const handle = candidate.handle->get();
-    // A device that the kernel's driver holds is left to it: this only looks.
+    // A device that is claimed by the kernel's driver stays with it, because this function only
+    // looks.
     if (libusb_kernel_driver_active(handle, 0) == 1) return std::nullopt;
     const int result = libusb_claim_interface(handle, 0);
     if (result != LIBUSB_SUCCESS) return error_of(result, "Falcon " + candidate.serial);
@@ -161,7 +162,7 @@ Opened<std::vector<std::byte>> firmware_in(const std::string& file)
     return std::vector<std::byte>{bytes.begin(), bytes.end()};
 }
 
-/// Carries out what a Startup wants, until it is ready.
+/// Carries out the steps of a Startup, until it is ready.
 class Starter {
 public:
     Starter(libusb_device_handle* handle, Startup& startup) : handle_{handle}, startup_{startup} {}
@@ -248,7 +249,7 @@ Opened<Candidate> choose(libusb_context* context, const std::string& serial)
 Opened<std::unique_ptr<Device>> start(Context context, Candidate&& candidate,
                                       std::vector<std::byte> firmware)
 {
-    // Together from here on: the context goes last.
+    // From here on both belong together, and the context is destroyed last.
     ClaimedUsb usb{std::move(context), {}};
     if (!candidate.handle) return tl::unexpected{candidate.handle.error()};
     usb.handle.reset(candidate.handle->release());

@@ -10,14 +10,14 @@
 
 namespace hapnet::device::falcon {
 
-/// The Falcons on this computer's USB ports. One without a serial number, or whose number may not
-/// be read, is called by its port, such as "usb-1-2". The state of their firmware is known only
-/// after they are opened.
+/// Returns the Falcons on this computer's USB ports. A Falcon without a serial number, or whose
+/// number may not be read, is named by its port, such as "usb-1-2". The state of its firmware is
+/// known only after it is opened.
 [[nodiscard]] std::vector<Found> find_falcons();
 
-/// Opens the one with this serial or port, or, by "", the first that is usable, and waits until its
-/// firmware runs: under a second where it does already, up to some tens of seconds where it has to
-/// be loaded, which is tried 5 times. `firmware_file`: Novint's; "": none.
+/// Opens the Falcon with this serial or port, or with "" the first usable one, and waits until its
+/// firmware runs. That takes less than a second if it runs already, and up to some tens of seconds
+/// if it has to be loaded, which is tried 5 times. `firmware_file`: a file of Novint; "": none.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_falcon(const std::string& serial,
                                                           const std::string& firmware_file);
 

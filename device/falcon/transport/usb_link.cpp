@@ -49,7 +49,7 @@ UsbLink::~UsbLink()
     if (interrupts_) libusb_cancel_transfer(urgent_.get());
     for (int i = 0; i < close_rounds && !is_idle(); ++i) handle_events(brief_wait_ms);
     if (is_idle()) return;
-    // The library still has them: better never freed than written to afterwards.
+    // The library still uses the transfers. Leaking them is better than a write to freed memory.
     std::ignore = in_.release();
     std::ignore = out_.release();
     std::ignore = urgent_.release();
@@ -94,7 +94,7 @@ void UsbLink::send_now(const Packet& packet) noexcept
 
 void UsbLink::interrupt(const Packet& packet) noexcept
 {
-    // The previous transfer may have ended long ago, with its events not handled yet.
+    // The previous transfer may have ended long ago, but its events were not handled yet.
     if (interrupts_) handle_events(0);
     if (interrupts_.exchange(true)) return;
     put(packet, urgent_buffer_);
@@ -107,7 +107,7 @@ std::span<const std::byte> UsbLink::receive(Wait wait) noexcept
     collect();
     handle_events(0);
     collect();
-    // The first wait may end because our own packet has left. Then wait once more.
+    // The first wait may end because our own packet has left. Then it waits once more.
     for (int round = 0; round < 2 && wait == Wait::briefly && inbox_size_ == 0; ++round) {
         const bool was_sending = sends_;
         handle_events(brief_wait_ms);

@@ -16,10 +16,10 @@ namespace hapnet::device::falcon {
 inline constexpr unsigned char endpoint_in = 0x81;
 inline constexpr unsigned char endpoint_out = 0x02;
 inline constexpr std::size_t usb_packet_bytes = 64;
-inline constexpr std::size_t ftdi_status_bytes = 2; // in front of each packet from FTDI's chip
+inline constexpr std::size_t ftdi_status_bytes = 2; // before each packet from FTDI's chip
 
-/// An open device whose interface 0 is ours, or about to be; a library context of its own, so that
-/// no one else handles its events.
+/// An open device whose interface 0 is claimed, or is about to be. It has a library context of its
+/// own, so that no other code handles its events.
 struct ClaimedUsb {
     struct Exit {
         void operator()(libusb_context* ours) const { libusb_exit(ours); }
@@ -35,9 +35,10 @@ struct ClaimedUsb {
     std::unique_ptr<libusb_device_handle, Release> handle;
 };
 
-/// Packets over libusb: one transfer each way at most is under way, and one more for interrupt().
-/// The library's events are handled in the calls, there is no thread of its own: those of
-/// interrupt() may be another's, so what a transfer came to is only noted when it ends.
+/// Sends packets over libusb. At most one transfer is in progress in each direction, and one more
+/// for interrupt(). There is no separate thread: the library's events are handled inside the calls,
+/// and those of interrupt() may be on another thread. Therefore the end of a transfer only stores
+/// its outcome.
 class UsbLink final : public Link {
 public:
     explicit UsbLink(ClaimedUsb usb);

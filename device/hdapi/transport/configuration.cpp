@@ -18,7 +18,8 @@ std::string variable(const char* name)
     return value == nullptr ? "" : value;
 }
 
-/// The places named by guides of the vendor and of others; the first that exists counts.
+/// Returns the folders that guides of the vendor and of others name. The first one that exists is
+/// used.
 std::vector<fs::path> configuration_folders()
 {
     std::vector<fs::path> folders;

@@ -7,7 +7,8 @@
 
 namespace hapnet::device::hdapi {
 
-/// The names that the vendor's set-up has given to devices of this user: its files NAME.config.
+/// Returns the names that the vendor's set-up has given to devices of this user: its files
+/// NAME.config.
 [[nodiscard]] std::vector<std::string> configured_names();
 
 } // namespace hapnet::device::hdapi

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::array default_names{"", "Default Device", "Default PHANToM"};
 
-/// A device behind libHD. Nothing here waits: the scheduler's callback does all that concerns the
-/// library, and only the newest values pass between it and the caller.
+/// A device behind libHD. No function here waits: the scheduler's callback makes all calls of the
+/// library, and only the newest values are exchanged between it and the caller.
 class LibraryDevice final : public Device {
 public:
     LibraryDevice(Scheduler& scheduler, Opening opening)

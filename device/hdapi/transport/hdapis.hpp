@@ -10,16 +10,16 @@
 
 namespace hapnet::device::hdapi {
 
-/// The names in the vendor's configuration, and devices on the USB that need its library. The
-/// library is loaded to see whether it can be, but no device is touched.
+/// Returns the names in the vendor's configuration, and devices on the USB that need its library.
+/// The library is loaded to test whether it can be loaded, but no device is opened.
 [[nodiscard]] std::vector<Found> find_hdapis(const std::string& library);
 
 /// Opens the device of this name; "": the default device, under one of its usual names.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_hdapi(const std::string& name,
                                                          const std::string& library);
 
-/// Opens several at once, all or none: they share the library's one scheduler, so that one process
-/// can own them. It is not known whether two processes can each own one.
+/// Opens several devices at once, all or none. They share the library's one scheduler, so that one
+/// process can own them. It is not known whether two processes can each own one.
 [[nodiscard]] Opened<std::vector<std::unique_ptr<Device>>>
 open_hdapis(const std::vector<std::string>& names, const std::string& library);
 

@@ -65,7 +65,7 @@ Opened<std::vector<Opening>> Scheduler::open(const std::vector<std::string>& nam
 
 Opened<Opening> Scheduler::open_one(const std::string& name)
 {
-    std::ignore = first_error(functions_); // drops errors of earlier calls
+    std::ignore = first_error(functions_); // discards errors of earlier calls
     const Handle handle = functions_.init_device(name.empty() ? nullptr : name.c_str());
     const ErrorInfo error = first_error(functions_);
     if (handle == no_device || error.code != error::none) {
@@ -81,8 +81,8 @@ Opened<Opening> Scheduler::open_one(const std::string& name)
                     .serial = text_of(functions_.get_string(parameter::serial)),
                     .properties = properties_of_current(functions_)};
     functions_.disable(capability::force_output);  // until a governor asks for force
-    functions_.enable(capability::force_clamping); // the library's own limit, behind ours
-    std::ignore = first_error(functions_); // drops errors about what this model does not have
+    functions_.enable(capability::force_clamping); // the library's own limit, in addition to ours
+    std::ignore = first_error(functions_); // discards errors about features that this model lacks
     opening.client = std::make_shared<SchedulerClient>(
         DeviceCycle{functions_, handle, preferred_style(opening.properties.calibration_styles)});
     return opening;
@@ -93,7 +93,7 @@ void Scheduler::close(const Opening& opening)
     const std::lock_guard lock{mutex_};
     stop();
     give_back(opening);
-    std::ignore = start(); // for the other devices; if it fails, they fall silent, which is noticed
+    std::ignore = start(); // for the other devices; a failure makes them silent, which is detected
 }
 
 void Scheduler::give_back(const Opening& opening)
@@ -112,7 +112,7 @@ Opened<bool> Scheduler::start()
     for (const Opening& opening : open_) opening.client->on_start();
     callback_ = functions_.schedule_asynchronous(&Scheduler::serve_all, this, priority_max);
     functions_.set_scheduler_rate(rate_hz);
-    std::ignore = first_error(functions_); // a device that knows other rates keeps its own
+    std::ignore = first_error(functions_); // a device with other rates keeps its own
     functions_.start_scheduler();
     is_running_ = true;
     const ErrorInfo error = first_error(functions_);
@@ -153,7 +153,7 @@ void Scheduler::hand_out_errors() const
             return one.client->handle() == latest.handle;
         };
         const bool is_of_all = std::none_of(open_.begin(), open_.end(), is_named);
-        // The first that came is taken off last, and stays: the others follow from it.
+        // The first error that occurred is removed last, and stays, as the others follow from it.
         for (const Opening& one : open_) {
             if (is_of_all || is_named(one)) one.client->note(latest.code);
         }
@@ -162,8 +162,8 @@ void Scheduler::hand_out_errors() const
 
 Opened<Scheduler*> scheduler_of(const std::string& file)
 {
-    // The library is one per process, with its own state and thread, and is never unloaded: so is
-    // what drives it.
+    // The library exists once per process, with its own state and thread, and is never unloaded. So
+    // its scheduler exists once, too, and lives until the process ends.
     static std::mutex mutex;
     static std::map<std::string, std::unique_ptr<Scheduler>> schedulers;
     const std::lock_guard lock{mutex};

@@ -39,10 +39,11 @@ void SchedulerClient::serve()
     changed_.notify_all();
 }
 
-/// Its force is that of this very frame if it comes in time, else that of a later one. A beat that
-/// is not over yet is not waited for again: whatever it hangs in, the library's thread goes on, and
-/// with it the frames that take the force away. Nor does it wait for the lock, whose owner may have
-/// been put aside by the system: then the next cycle calls.
+/// Requests a beat. The force of this frame is that of the beat if it ends in time; otherwise a
+/// later frame has it. A beat that has not ended is not waited for again: even if it hangs, the
+/// library's thread continues, and so do the frames that remove the force. This function does not
+/// wait for the lock either, because the system may have suspended its owner: then the next cycle
+/// requests the beat.
 void SchedulerClient::call_for_a_beat()
 {
     std::unique_lock lock{mutex_, std::try_to_lock};
@@ -76,7 +77,7 @@ void SchedulerClient::pace(const std::function<bool()>& beat)
     }
 }
 
-/// True if a cycle has called for a beat; false: none came for 100 ms.
+/// True if a cycle has requested a beat; false: none came for 100 ms.
 bool SchedulerClient::is_called()
 {
     std::unique_lock lock{mutex_};

@@ -9,7 +9,7 @@
 
 namespace hapnet::device::hdapi {
 
-/// Loads libHD: from `file`, or with "" by its usual names. It is never unloaded: its driver fails
+/// Loads libHD from `file`, or with "" by its usual names. It is never unloaded: its driver fails
 /// when it is loaded a second time (CHAI3D). The error says what to do.
 [[nodiscard]] Opened<Functions> load_library(const std::string& file);
 

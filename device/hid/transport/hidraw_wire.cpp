@@ -10,7 +10,7 @@ namespace hapnet::device::hid {
 
 namespace {
 
-/// The result of a call that returns -1 when it fails; errno was 0 before it.
+/// Returns the result of a call that returns -1 when it fails. errno was 0 before the call.
 TransferResult moved_by(int result)
 {
     if (result >= 0) return TransferResult::yes;

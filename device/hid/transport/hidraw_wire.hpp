@@ -16,11 +16,12 @@ struct hid_device_;
 
 namespace hapnet::device::hid {
 
-/// Reports through hidapi and the kernel's hidraw. hidapi keeps an error text in each opened
-/// device without a lock: so each thread opens its own.
+/// Exchanges reports through hidapi and the kernel's hidraw. hidapi keeps an error text in each
+/// opened device without a lock, so each thread opens its own.
 class HidrawWire final : public Wire {
 public:
-    /// "/dev/hidraw0"; holds the claim on it, where one is given, until it is closed.
+    /// Opens `path`, such as "/dev/hidraw0". If a claim on it is given, the claim is held until the
+    /// wire is closed.
     [[nodiscard]] static Opened<std::unique_ptr<Wire>> open(const std::string& path,
                                                             std::optional<Claim> claim);
 

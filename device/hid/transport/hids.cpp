@@ -29,7 +29,7 @@ std::string narrow(const wchar_t* text)
     return narrowed;
 }
 
-/// Every node that is a device of ours.
+/// Returns every node that is a recognised device.
 std::vector<RecognisedDevice> look_around()
 {
     const std::unique_ptr<hid_device_info, decltype(&hid_free_enumeration)> all{

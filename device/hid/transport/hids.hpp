@@ -12,13 +12,13 @@
 
 namespace hapnet::device::hid {
 
-/// The force-feedback devices (USB HID PID) and the SpaceMouses that the kernel shows as hidraw
-/// nodes, with or without permission to use them; nothing else that is HID. Where a device has no
-/// serial number the node's name stands in for it, such as "hidraw0".
+/// Returns the force-feedback devices (USB HID PID) and the SpaceMouses that the kernel shows as
+/// hidraw nodes, with or without permission to use them, and no other HID devices. If a device has
+/// no serial number, the name of the node replaces it, such as "hidraw0".
 [[nodiscard]] std::vector<Found> find_hids(const Options& options);
 
-/// Opens the device with this serial number or node name; "": the first usable device. A PID device
-/// is read only where options.force_full_n is missing; its note says so.
+/// Opens the device with this serial number or node name; "": the first usable device. Without
+/// options.force_full_n a PID device is only read, and its note says so.
 [[nodiscard]] Opened<std::unique_ptr<Device>> open_hid(const std::string& serial,
                                                        const Options& options);
 

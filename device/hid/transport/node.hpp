@@ -35,7 +35,8 @@ private:
     int descriptor_;
 };
 
-/// The report descriptor of "/dev/hidraw0", which anyone may read; nullopt where it is not there.
+/// Returns the report descriptor of `path`, such as "/dev/hidraw0", which anyone may read; nullopt
+/// if it does not exist.
 [[nodiscard]] std::optional<std::vector<std::byte>> descriptor_of(const std::string& path);
 
 } // namespace hapnet::device::hid

@@ -20,7 +20,7 @@ struct SenderThread::Shared {
     void run()
     {
         while (true) {
-            // Asked first: what was ordered before it was set is then sent below.
+            // This is read first, so that orders from before it was set are still sent below.
             const bool ends = is_closing;
             while (send_next(mailbox, sender, *wire)) {}
             if (ends) break;

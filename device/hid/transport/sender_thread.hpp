@@ -11,13 +11,13 @@
 
 namespace hapnet::device::hid {
 
-/// An outbox with a thread of its own: the kernel lets a write to hidraw wait for the device, for
-/// up to 5 s and whatever the file's flags say, and no tick may.
+/// An outbox with a thread of its own. The kernel makes a write to hidraw wait for the device, for
+/// up to 5 s and whatever the file's flags are, and no tick may wait that long.
 class SenderThread final : public ReportSender {
 public:
     SenderThread(std::unique_ptr<Wire> wire, PidSender sender);
-    /// Waits for the last order to be sent, but no longer than close_max; a thread that is still
-    /// stuck in a write then ends, and lets go of the node, when the kernel gives up.
+    /// Waits for the last order to be sent, but no longer than close_max. A thread that is still
+    /// blocked in a write then ends, and closes the node, when the kernel gives up.
     ~SenderThread() override;
     SenderThread(const SenderThread&) = delete;
     SenderThread& operator=(const SenderThread&) = delete;

@@ -11,8 +11,8 @@
 
 namespace hapnet::device::inverse3 {
 
-/// Exchanges with the service: a force for a state. An answer that comes too late for its own
-/// exchange is passed over in the next.
+/// Exchanges a force for a state with the service. An answer that arrives too late for its own
+/// exchange is skipped in the next one.
 class Inverse3Exchange final : public polled::Exchange {
 public:
     Inverse3Exchange(net::WebSocketClient client, std::string id)

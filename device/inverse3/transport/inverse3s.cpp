@@ -23,7 +23,7 @@ constexpr net::WebSocketClient::Limits limits{.connect_max = 500ms,
                                               .message_bytes_max = message_bytes_max};
 constexpr base::Duration inventory_max = 500ms; // longest wait for the service's list of devices
 
-/// A connection, and the inventory with which the service begins it.
+/// A connection, and the list of devices that the service sends first.
 struct Session {
     net::WebSocketClient client;
     ServiceState inventory;

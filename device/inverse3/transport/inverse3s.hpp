@@ -12,7 +12,7 @@
 namespace hapnet::device::inverse3 {
 
 /// Returns the devices that the service on this port of this machine lists after a connection. No
-/// command is sent. Returns none where no program listens, or another than the service.
+/// command is sent. Returns none if no program listens there, or a program other than the service.
 [[nodiscard]] std::vector<Found> find_inverse3s(std::uint16_t port);
 
 /// Opens the device with this identity; "": the first one.

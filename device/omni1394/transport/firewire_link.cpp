@@ -22,26 +22,26 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr base::Duration answer_within = 500ms;
-// After a bus reset the kernel lets a second pass before it gives channels.
+// After a bus reset the kernel waits for a second before it allocates channels.
 constexpr base::Duration channel_within = 2s;
 // Channels 0 to 30: the next one is the broadcast channel.
 constexpr std::uint64_t channels_to_choose_from = 0x7fffffff;
-// The bytes of a packet besides its data, which are a header and two checksums, and the bandwidth
-// that each packet needs on the bus besides its bytes (as the kernel's own sound drivers compute
-// it).
+// The bytes of a packet in addition to its data, which are a header and two checksums, and the
+// bandwidth that each packet needs on the bus in addition to its bytes (as the kernel's own sound
+// drivers compute it).
 constexpr std::uint32_t packet_overhead_bytes = 12;
 constexpr std::uint32_t bandwidth_overhead = 512;
 
-// A command is for a millisecond: one packet in each of the bus's cycles, as the programs did that
+// A command is for a millisecond: one packet in each of the bus's cycles, as in the programs that
 // ran with the device.
 constexpr int packets_per_command = 8;
 constexpr int pushing_packets_max = 2 * packets_per_command;
 constexpr int sending_packets_max = 16 * packets_per_command;
-// Header, time stamp, and all that a packet can hold.
+// Header, time stamp, and the greatest contents of a packet.
 constexpr std::uint32_t received_bytes = 8 + device_packet_bytes_max;
 constexpr std::size_t receive_room = 64; // packets
 
-/// One packet of <linux/firewire-cdev.h>'s array of them, with its header.
+/// One packet in the array of <linux/firewire-cdev.h>, with its header.
 struct PacketToSend {
     std::uint32_t control = FW_CDEV_ISO_HEADER_LENGTH(std::uint32_t{host_packet_bytes});
     HostBytes bytes{};
@@ -54,7 +54,7 @@ std::uint64_t address_of(const void* pointer)
     return reinterpret_cast<std::uintptr_t>(pointer); // NOLINT(*-reinterpret-cast)
 }
 
-/// A structure of the kernel at the beginning of an event.
+/// Reads a structure of the kernel at the beginning of an event.
 template <typename T>
 bool read_as(T& target, const Event& event, std::size_t least)
 {
@@ -72,7 +72,7 @@ std::uint32_t big_endian_at(std::span<const std::byte> bytes)
 
 constexpr std::size_t headers_at = offsetof(fw_cdev_event_iso_interrupt, header);
 
-/// The headers of an event with isochronous packets.
+/// Returns the headers of an event with isochronous packets.
 std::span<const std::byte> headers_of(const Event& event)
 {
     fw_cdev_event_iso_interrupt interrupt{};
@@ -94,7 +94,7 @@ FirewireLink::~FirewireLink()
     fw_cdev_stop_iso stop{};
     std::ignore = sender_.control(FW_CDEV_IOC_STOP_ISO, &stop);
     std::ignore = receiver_.control(FW_CDEV_IOC_STOP_ISO, &stop);
-    // Closing gives the channels back.
+    // Closing releases the channels.
 }
 
 Opened<std::unique_ptr<Link>> FirewireLink::open(const std::string& path)

@@ -12,12 +12,12 @@
 
 namespace hapnet::device::omni1394 {
 
-/// The way over the kernel's <linux/firewire-cdev.h>, without mapped memory: what is sent lies in
-/// the headers of the packets, and what is received in those of the events. Three descriptors, as
-/// each may have one isochronous context.
+/// A link over the kernel's <linux/firewire-cdev.h>, without mapped memory: sent data are in the
+/// headers of the packets, and received data are in the headers of the events. It has three
+/// descriptors, because each may have one isochronous context.
 class FirewireLink final : public Link {
 public:
-    /// `path` such as /dev/fw1. Another of these on the same node is refused.
+    /// Opens `path`, such as /dev/fw1. A second link to the same node is refused.
     [[nodiscard]] static Opened<std::unique_ptr<Link>> open(const std::string& path);
     ~FirewireLink() override;
     FirewireLink(const FirewireLink&) = delete;
@@ -53,8 +53,8 @@ private:
     Event event_;                 // last event of node_ or sender_
     Event packets_;               // last event of receiver_
     std::uint64_t requests_ = 0;  // number of requests so far
-    std::size_t at_ = 0;          // place in packets_ up to which it was read
-    std::atomic<int> sending_{0}; // packets on their way
+    std::size_t at_ = 0;          // position in packets_ up to which it was read
+    std::atomic<int> sending_{0}; // packets in transit
 };
 
 } // namespace hapnet::device::omni1394

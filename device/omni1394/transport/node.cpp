@@ -19,7 +19,7 @@ namespace hapnet::device::omni1394 {
 
 namespace {
 
-// The first that has events which do not lose headers, and the last without time stamps.
+// The first version with events that do not lose headers, and the last one without time stamps.
 constexpr std::uint32_t interface_version = 5;
 
 Fault fault_of(int error)

@@ -13,13 +13,13 @@
 
 namespace hapnet::device::omni1394 {
 
-/// An event of a node: one of those of <linux/firewire-cdev.h>, byte for byte.
-/// Big enough for a page of isochronous headers.
+/// An event of a node, as in <linux/firewire-cdev.h>, byte for byte. It has room for a page of
+/// isochronous headers.
 struct alignas(8) Event {
     std::array<std::byte, 4096 + 64> bytes{};
     std::size_t size = 0;
 
-    /// FW_CDEV_EVENT_...; of what is too short for one, UINT32_MAX.
+    /// Returns FW_CDEV_EVENT_..., or UINT32_MAX if the bytes are too short for an event.
     [[nodiscard]] std::uint32_t type() const;
     [[nodiscard]] std::span<const std::byte> content() const
     {
@@ -30,8 +30,8 @@ struct alignas(8) Event {
 /// The result of reading an event.
 enum class ReadOutcome : std::uint8_t { nothing, event, gone };
 
-/// An open /dev/fwN: thin, and without decisions. The kernel has one isochronous context for each
-/// of these.
+/// An open /dev/fwN: a thin wrapper that takes no decisions. The kernel has one isochronous context
+/// for each open node.
 class Node {
 public:
     [[nodiscard]] static Opened<Node> open(const std::string& path);
@@ -41,11 +41,12 @@ public:
     Node(Node&& other) noexcept;
     Node& operator=(Node&& other) noexcept;
 
-    /// Keeps other programs that do the same from it, until it is closed; false: another has it.
+    /// Locks the node against other programs that also lock it, until it is closed. Returns false
+    /// if another program has locked it.
     [[nodiscard]] bool lock();
-    /// 0, or the kernel's error number.
+    /// Makes an ioctl. Returns 0, or the kernel's error number.
     [[nodiscard]] int control(unsigned long request, void* argument) const noexcept;
-    /// The next event, if one is there within the time.
+    /// Reads the next event, if one arrives within the time.
     [[nodiscard]] ReadOutcome read(Event& event, base::Duration within) const noexcept;
 
     [[nodiscard]] int descriptor() const { return descriptor_; }
@@ -62,7 +63,7 @@ private:
     std::uint32_t generation_ = 0;
 };
 
-/// The error of a failed call to the kernel, with the remedy.
+/// Returns the error of a failed call to the kernel, with the remedy.
 [[nodiscard]] DeviceError error_of(int error, const std::string& what);
 
 } // namespace hapnet::device::omni1394

@@ -28,7 +28,7 @@ std::string first_line_of(const std::filesystem::path& file)
     return line;
 }
 
-/// One on a bus: its node, and the serial of its bus interface.
+/// An Omni on a bus: its node, and the serial of its bus interface.
 struct BusNode {
     std::string node;
     std::string guid;
@@ -104,7 +104,7 @@ Opened<std::unique_ptr<Device>> open_omni(const std::string& serial, const Optio
     for (const BusNode& seen : look_around()) {
         const Found omni = found(seen);
         if (omni.unusable) {
-            why = *omni.unusable; // its serial is unknown: it may be the one that is meant
+            why = *omni.unusable; // its serial is unknown, so it may be the requested one
             continue;
         }
         if (!serial.empty() && serial != omni.identity.serial && serial != seen.guid) continue;

@@ -16,8 +16,8 @@ struct Options {
     bool uncalibrated_force = false; // up to a quarter of full scale without measured torques
 };
 
-/// Finds all Omnis on the computer's buses. The serial is that printed on the device. Where the
-/// device cannot be asked for it, it is that of its bus interface, "0x000b99...".
+/// Finds all Omnis on the computer's buses. The serial is the one printed on the device. If the
+/// device cannot be asked for it, the serial is that of its bus interface, "0x000b99...".
 [[nodiscard]] std::vector<Found> find_omnis();
 
 /// Opens the Omni with this serial (either of the two serials), or with "" the first usable Omni.

@@ -17,7 +17,7 @@ struct InjectedFault {
         stall,               // the device is silent
         unplug,              // the device has gone for good
         encoder_jump,        // the waist's encoder is off by 500 counts
-        communication_error, // the device's reports make no sense
+        communication_error, // the device's reports are invalid
         not_a_number,        // positions are NaN, which the interface does not permit
     };
     Kind kind;
@@ -25,7 +25,7 @@ struct InjectedFault {
     base::Duration lasts;
 };
 
-/// Faults of a simulated device, and their times: for tests and for trying out the reactions.
+/// Faults of a simulated device, and their times, for tests and for trying out the reactions.
 struct InjectedFaults {
     std::vector<InjectedFault> schedule;
 

@@ -12,7 +12,7 @@ namespace hapnet::device {
 
 namespace {
 
-// The time of a walk, also of the walk out of the inkwell to where the person waits.
+// The duration of a walk, including the walk out of the inkwell to where the person waits.
 constexpr double walk_s = 1.0;
 constexpr base::Position waiting_place{{0.0, 0.0, 0.035}};
 constexpr int encoder_jump_counts = 500;
@@ -90,7 +90,7 @@ Grip JointOmni::grip_at(base::TimePoint now, base::Duration elapsed)
     }
     const double seconds = base::to_seconds(elapsed);
     const HandImpedance& hand = person_.hand();
-    // Forces besides the hand's impedance have the same effect as an intention elsewhere.
+    // Forces in addition to the hand's impedance have the same effect as a shifted intention.
     const glm::dvec3 aside = effort.force / hand.stiffness_n_per_m;
     const glm::dvec3 change = (effort.target - intended_).value;
     const Grip grip{{intended_.value + aside}, {change / seconds}, hand};

@@ -21,9 +21,9 @@ struct JointOmniSettings {
 };
 
 /// A simulated Omni with its encoders, motors, friction, stops and inkwell, held by a simulated
-/// person: for the conformance of devices, and where the Cartesian one is too well-behaved. It
-/// starts docked and is calibrated by that; on its cue the person takes the stylus out, and acts
-/// the task. Not a human being: a linear hand with scripted intentions.
+/// person. It is for the conformance tests of devices, and for cases that the Cartesian one does
+/// not show. It starts docked, which calibrates it. On its cue the person takes the stylus out, and
+/// plays the task. Not a human being: a linear hand with scripted intentions.
 class JointOmni final : public Device {
 public:
     explicit JointOmni(const JointOmniSettings& settings);
@@ -37,8 +37,8 @@ public:
     void on_cue(const Cue& cue) override;
     void on_fault(bool is_latched) override { person_.on_fault(is_latched); }
 
-    /// Moves the hand by a script instead of the person: evenly to `place` within one second. It
-    /// stays there.
+    /// Moves the hand by a script instead of the person, at constant speed to `place` within one
+    /// second. It stays there.
     void lead_to(const base::Position& place);
     /// Holds these buttons down from now on, one bit each.
     void press(std::uint8_t buttons) { pressed_ = buttons; }
@@ -53,7 +53,7 @@ public:
     static constexpr base::Duration gap_max{std::chrono::milliseconds{100}};
 
 private:
-    /// A way of the hand, outside of any task.
+    /// A movement of the hand outside of any task.
     struct Walk {
         base::Position from;
         base::Position to;

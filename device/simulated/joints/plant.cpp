@@ -11,10 +11,11 @@ namespace hapnet::device {
 
 namespace {
 
-// The rounds that settle the friction's impulses against each other: they are nearly independent.
+// The number of rounds that balance the friction impulses of the joints, which are nearly
+// independent.
 constexpr int friction_rounds = 4;
 
-/// The tip's acceleration while the joints turn evenly.
+/// Returns the tip's acceleration while the joints turn at constant speed.
 glm::dvec3 turning_acceleration(const omni::Joints& joints, const glm::dvec3& turning)
 {
     const glm::dvec3& q = joints.angles;
@@ -32,7 +33,7 @@ glm::dvec3 turning_acceleration(const omni::Joints& joints, const glm::dvec3& tu
             outward * cosine - sideways * sine};
 }
 
-/// Ends a motion that leaves a range.
+/// Stops a motion that leaves a range.
 void stop(double& angle, double& turning, const omni::JointRange& range)
 {
     if (angle >= range.least && angle <= range.most) return;
@@ -95,8 +96,8 @@ glm::dvec3 JointPlant::hand_force() const
            hand.damping_ns_per_m * (grip_->target_velocity - velocity_).value;
 }
 
-/// Coulomb friction as the impulse that stops each joint, or as much of it as friction has: it
-/// sticks exactly and takes nothing but motion.
+/// Applies Coulomb friction as the impulse that stops each joint, or as much of it as the friction
+/// can give. A joint at rest sticks exactly, and friction only removes motion.
 void JointPlant::rub(const glm::dmat3& mobility, double seconds)
 {
     glm::dvec3 impulse{0.0};

@@ -29,27 +29,29 @@ struct JointPlantFigures {
     omni::Joints zero{{0.30, -0.20, 0.10}};
 };
 
-/// A hand on the stylus: it pulls toward its target like a damped spring, and its mass moves along.
+/// A hand on the stylus: it pulls toward its target like a damped spring, and its mass moves with
+/// the stylus.
 struct Grip {
     base::Position target;
     base::Velocity target_velocity;
     HandImpedance hand{}; // its mass contains the device's own
 };
 
-/// An Omni as a mechanism: motor torques and a hand in, angles out. The apparent mass sits at the
-/// tip, the rotors at the joints; gravity is left to the hand. Hard stops end every joint; the
-/// inkwell holds the stylus until it is pulled out. Deterministic: the same calls give
-/// the same bits.
+/// An Omni as a mechanism. Its inputs are motor torques and a hand, and its outputs are angles. The
+/// apparent mass is at the tip, and the rotors are at the joints. The hand compensates gravity.
+/// Every joint ends at hard stops. The inkwell holds the stylus until it is pulled out.
+/// Deterministic: the same calls give the same bits.
 class JointPlant {
 public:
     explicit JointPlant(const JointPlantFigures& figures = {});
 
-    /// The commanded motor torques, N m; they saturate.
+    /// Sets the commanded motor torques, N m. They saturate.
     void set_torque(const glm::dvec3& newton_metres);
     /// Sets the hand's grip; nullopt: no hand holds it.
     void set_grip(const std::optional<Grip>& grip) { grip_ = grip; }
 
-    /// Lives through a time, in equal steps of 50 us at most. The grip's target moves on evenly.
+    /// Simulates `elapsed`, in equal steps of 50 us at most. The grip's target continues at
+    /// constant speed.
     void advance(base::Duration elapsed);
 
     [[nodiscard]] const omni::Joints& joints() const { return joints_; }
@@ -58,7 +60,7 @@ public:
     [[nodiscard]] base::Velocity tip_velocity() const { return velocity_; }
     [[nodiscard]] bool is_docked() const { return is_docked_; }
     [[nodiscard]] omni::Counts counts() const { return omni::counts_at(joints_, figures_.zero); }
-    /// The motor torques after saturation, N m.
+    /// Returns the motor torques after saturation, N m.
     [[nodiscard]] const glm::dvec3& torque() const { return torque_; }
     [[nodiscard]] const JointPlantFigures& figures() const { return figures_; }
 

@@ -26,7 +26,7 @@ enum Option : std::uint16_t {
     timestamp_resolution = 9, // in an interface description
 };
 
-/// Unsigned integers in the order of bytes of the file, which is little-endian.
+/// Appends an unsigned integer in the byte order of the file, which is little-endian.
 template <typename T>
 void put(std::string& bytes, T value)
 {
@@ -35,7 +35,7 @@ void put(std::string& bytes, T value)
     }
 }
 
-/// 16 bits as they go over a network.
+/// Appends 16 bits in network byte order.
 void put_net16(std::string& bytes, std::size_t value)
 {
     bytes += static_cast<char>(value >> 8 & 0xffU);
@@ -58,13 +58,13 @@ void put_option(std::string& bytes, Option option, std::string_view value)
     pad(bytes, value.size());
 }
 
-/// One block: its length stands at its beginning and at its end.
+/// One block. Its length is at its beginning and at its end.
 class Block {
 public:
     Block(std::string& bytes, std::uint32_t type) : bytes_{bytes}, start_{bytes.size()}
     {
         put(bytes_, type);
-        put(bytes_, std::uint32_t{0}); // the length, once it is known
+        put(bytes_, std::uint32_t{0}); // replaced by the length later
     }
     ~Block()
     {
@@ -85,7 +85,7 @@ constexpr std::size_t v4_header_bytes = 20;
 constexpr std::size_t udp_header_bytes = 8;
 constexpr char udp_protocol = 17;
 
-/// The beginning of an IPv4 address that is written as an IPv6 address.
+/// The beginning of an IPv4 address in IPv6 notation.
 constexpr std::string_view mapped_prefix{"\0\0\0\0\0\0\0\0\0\0\xff\xff", 12};
 
 std::string_view v4_bytes(const UdpAddress& address)
@@ -109,7 +109,7 @@ void put_v6(std::string& bytes, const UdpAddress& address)
     }
 }
 
-/// The sum of 16-bit words whose complement is the checksum of IP and UDP (RFC 1071).
+/// Returns the sum of 16-bit words whose complement is the checksum of IP and UDP (RFC 1071).
 std::uint64_t word_sum(std::string_view bytes)
 {
     const auto value = [&](std::size_t i) -> std::uint64_t {
@@ -218,7 +218,7 @@ void append_capture_head(std::string& bytes, std::string_view program,
 {
     {
         const Block block{bytes, section_header};
-        put(bytes, std::uint32_t{0x1a2b3c4d}); // magic number that tells the byte order
+        put(bytes, std::uint32_t{0x1a2b3c4d}); // magic number that shows the byte order
         put(bytes, std::uint16_t{1});          // version 1.0
         put(bytes, std::uint16_t{0});
         put(bytes, ~std::uint64_t{0}); // section length: not stated
@@ -240,7 +240,7 @@ void append_packet(std::string& bytes, const CapturedPacket& packet, base::Durat
     put(bytes, static_cast<std::uint32_t>(time >> 32));
     put(bytes, static_cast<std::uint32_t>(time));
     const auto lengths_at = bytes.size();
-    put(bytes, std::uint64_t{0}); // captured and original length, once they are known
+    put(bytes, std::uint64_t{0}); // replaced by the captured and original length later
     const auto start = bytes.size();
     if (packet.is_ip) {
         bytes += text_of(packet.payload);

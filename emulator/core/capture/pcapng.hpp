@@ -15,20 +15,21 @@
 
 namespace hapnet::emulator {
 
-// A capture as pcapng (draft-ietf-opsawg-pcapng), which Wireshark and tshark open: two interfaces,
-// "side A" and "side B", of raw IP packets, whole, with times in nanoseconds. A relay of datagrams
-// sees of IP headers only their marks: the rest is made up, with correct lengths and checksums.
+// A capture as pcapng (draft-ietf-opsawg-pcapng), which Wireshark and tshark open. It has two
+// interfaces, "side A" and "side B", with whole raw IP packets and times in nanoseconds. A relay of
+// datagrams knows only the IP marks of the headers. The rest of the headers is generated, with
+// correct lengths and checksums.
 
 enum class CaptureSide : std::uint8_t { a, b };
 
-/// An address and a UDP port; an IPv4 address stands in the first four bytes.
+/// An address and a UDP port. An IPv4 address occupies the first four bytes.
 struct UdpAddress {
     std::array<std::byte, 16> address{};
     std::uint16_t port = 0;
     bool is_v6 = false;
 };
 
-/// A datagram or an IP packet that came or went.
+/// A datagram or an IP packet that arrived or left.
 struct CapturedPacket {
     CaptureSide side = CaptureSide::a; // whose socket it passed
     bool is_outbound = false;          // sent by the emulator
@@ -49,23 +50,24 @@ struct CaptureNames {
     std::string b = "side B";
 };
 
-/// Appends what a capture begins with: the section header and the interfaces, two for each pair.
-/// `program` is named as what wrote it.
+/// Appends the beginning of a capture: the section header and the interfaces, two for each pair.
+/// `program` is recorded as the application that wrote it.
 void append_capture_head(std::string& bytes, std::string_view program,
                          std::span<const CaptureNames> pairs);
 
-/// Appends one packet, with a comment of at most 65535 bytes. A datagram is an IPv4 packet when
-/// both addresses are IPv4, or IPv4 in an IPv6 address (::ffff:1.2.3.4); otherwise IPv6.
-/// `since_1970`: of the time point 0, such that no packet is from before 1970.
+/// Appends one packet, with a comment of at most 65535 bytes. A datagram becomes an IPv4 packet
+/// when each address is IPv4 or IPv4 in an IPv6 address (::ffff:1.2.3.4); otherwise IPv6.
+/// `since_1970`: the time from 1970 to time point 0. No packet may be from before 1970.
 void append_packet(std::string& bytes, const CapturedPacket& packet, base::Duration since_1970,
                    std::string_view comment);
 
-/// Appends the comment of a datagram that arrived: "dropped: gilbert-elliott", or
-/// "delayed 163.2 ms" (as drawn; below 1 ms in us) and what else becomes of it: ", copied",
-/// ", 1 bit corrupted", ", displaced".
+/// Appends the comment of a datagram that arrived: "dropped: gilbert-elliott", or "delayed 163.2
+/// ms" (as drawn; below 1 ms in us), with the other effects on it: ", copied", ", 1 bit corrupted",
+/// ", displaced".
 void append_arrival_comment(std::string& text, const Fate& fate);
 
-/// Appends the comment of a datagram that left so late: "late 7 us", and ", copy" if it is one.
+/// Appends the comment of a datagram that left `late` after its due time: "late 7 us", and ", copy"
+/// if it is one.
 void append_departure_comment(std::string& text, base::Duration late, bool is_copy);
 
 } // namespace hapnet::emulator

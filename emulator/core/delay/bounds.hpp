@@ -13,26 +13,26 @@
 
 namespace hapnet::emulator {
 
-/// No delay is longer: what a law draws beyond ends here.
+/// The longest delay. A longer drawn value is cut to it.
 inline constexpr base::Duration longest_delay = std::chrono::seconds{1'000'000};
 
 /// The formats of parameters: around zero, and of a width.
 inline constexpr base::Time any_delay{-longest_delay, longest_delay};
 inline constexpr base::Time delay_width{base::Duration{0}, longest_delay};
 
-/// A quantile, rounded to nanoseconds and cut at +-longest_delay.
+/// Returns a quantile, rounded to nanoseconds and limited to +-longest_delay.
 [[nodiscard]] base::Duration bounded(double nanoseconds);
 
-/// The nearest whole number of nanoseconds.
+/// Returns the nearest whole number of nanoseconds.
 [[nodiscard]] base::Duration rounded(double nanoseconds);
 
-/// Mean and standard deviation of a law.
+/// The mean and the standard deviation of a law.
 struct LawMoments {
     base::Duration mean{};
     std::optional<base::Duration> sd{}; // nullopt: infinite, or longer than any delay
 };
 
-// Requirements of a law's parameters, in words that follow the name of the setting.
+// Requirements on a law's parameters. The errors follow the name of the setting.
 
 [[nodiscard]] base::Result<void> require(bool condition, std::string_view words);
 
@@ -54,7 +54,7 @@ template <base::Described Law>
     return result;
 }
 
-/// The first error.
+/// Returns the first error.
 [[nodiscard]] base::Result<void> all(std::initializer_list<base::Result<void>> results);
 
 } // namespace hapnet::emulator

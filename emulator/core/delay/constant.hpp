@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator {
 
-/// Always the same.
+/// A law with one constant value.
 struct ConstantLaw {
     base::Duration value{};
 

@@ -12,7 +12,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-constexpr double u_min = 0x1p-54; // stands for a drawn 0
+constexpr double u_min = 0x1p-54; // replaces a drawn 0
 constexpr double u_max = 1.0 - 0x1p-53;
 
 } // namespace
@@ -64,12 +64,12 @@ base::Duration DelayProcess::draw(const Packet& packet)
         sampler_);
 }
 
-/// The uniform number of the datagram, strictly between 0 and 1.
+/// Returns the uniform number of the datagram, strictly between 0 and 1.
 double DelayProcess::uniform(const Packet& packet)
 {
     const double u = std::max(stream_.uniform(packet.number), u_min);
     if (correlation_time_ == base::Duration{0}) return u;
-    // Ornstein and Uhlenbeck's process, exact however far the datagrams lie apart.
+    // Ornstein and Uhlenbeck's process, exact for any distance of the datagrams.
     const double fresh = base::normal_quantile(u);
     if (!gaussian_) {
         gaussian_ = Gaussian{fresh, packet.at};

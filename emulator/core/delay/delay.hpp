@@ -24,18 +24,18 @@
 namespace hapnet::emulator {
 
 // The laws that a delay or a jitter may follow. Each has a file of its own with its parameters, its
-// sampler, its moments, and what is impossible about it. Each parameter is called what it is: no
-// law has a bare "jitter". `mean` may be zero (a jitter around the delay) or negative for the
-// symmetric laws only; widths and deviations are not negative.
+// sampler, its moments, and the check of its parameters. The parameters have specific names: no law
+// has a bare "jitter". `mean` may be zero (a jitter around the delay) or negative for the symmetric
+// laws only; widths and deviations are not negative.
 
-/// The laws, as a person states them.
+/// A law, as a person states it.
 using DelayLaw = std::variant<ConstantLaw, UniformLaw, NormalLaw, LogNormalLaw, ExponentialLaw,
                               ParetoLaw, GammaLaw, TableLaw, TraceLaw>;
 
-/// A law made ready for drawing: what does not change from one draw to the next is worked out.
+/// A law prepared for drawing: everything that is the same for all draws is precomputed.
 /// quantile(u) is the delay that a share u of all delays stays below, 0 < u < 1. A law that draws
 /// nothing has at(packet) instead. Parameters just outside of their range, as the rounding of a
-/// ramp makes them, count as the nearest that are possible.
+/// ramp makes them, count as the nearest possible ones.
 template <typename Sampler, typename Law>
 concept DelaySamplerOf = std::constructible_from<Sampler, const Law&> &&(
     requires(Sampler sampler) {
@@ -80,7 +80,7 @@ struct Variation {
 };
 
 [[nodiscard]] inline Variation constant(base::Duration value) { return {ConstantLaw{value}, {}}; }
-/// Around zero.
+/// Returns a uniform variation around zero.
 [[nodiscard]] inline Variation uniform(base::Duration half_width)
 {
     return {UniformLaw{{}, half_width}, {}};
@@ -90,27 +90,28 @@ struct Variation {
 /// more than 0".
 [[nodiscard]] base::Result<void> validate(const Variation& variation);
 
-/// True if it adds nothing to any datagram.
+/// True if the variation adds nothing to any datagram.
 [[nodiscard]] bool is_nothing(const Variation& variation);
 
 /// Draws the delay, or the jitter, of one datagram after the other: the quantile of the law at the
-/// uniform number of the datagram. Without correlation a delay depends on nothing but the number
-/// of its datagram, with it also on when the datagrams arrived.
+/// uniform number of the datagram. Without correlation a delay depends only on the number of its
+/// datagram. With correlation it also depends on the arrival times of the datagrams.
 class DelayProcess {
 public:
     /// `variation` is one that validate() accepts, except for rounding in a ramp.
     DelayProcess(const Variation& variation, const base::RandomStream& stream);
 
-    /// The delay of the next datagram; that of a jitter may be negative. Every datagram of the
-    /// direction is shown here once, in the order of their numbers. Does not allocate.
+    /// Returns the delay of the next datagram. That of a jitter may be negative. Call it once for
+    /// every datagram of the direction, in the order of their numbers. Does not allocate.
     [[nodiscard]] base::Duration on_packet(const Packet& packet)
     {
         const auto* constant = std::get_if<ConstantLaw::Sampler>(&sampler_); // the fast path
         return constant != nullptr ? constant->at(packet) : draw(packet);
     }
 
-    /// Holds from the next datagram on. A correlated process goes on from where it is, whatever
-    /// the law becomes. Cheap, and does not allocate: a ramp changes the law every millisecond.
+    /// Changes the law from the next datagram on. A correlated process continues from its state,
+    /// whatever the new law is. Cheap, and does not allocate: a ramp changes the law every
+    /// millisecond.
     void change(const Variation& variation);
 
 private:

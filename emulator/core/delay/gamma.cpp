@@ -24,7 +24,8 @@ double shape_of(const GammaLaw& law)
     return std::max(ratio * ratio, GammaQuantile::shape_min);
 }
 
-/// log Gamma(x) for x > 0: Stirling's series (DLMF 5.11.1) beyond 10, the recurrence below.
+/// Returns log Gamma(x) for x > 0: by Stirling's series (DLMF 5.11.1) beyond 10, by the recurrence
+/// below.
 double log_gamma(double x)
 {
     double product = 1.0;
@@ -39,7 +40,7 @@ double log_gamma(double x)
     return (x - 0.5) * base::log(x) - x + half_log_two_pi + series / x - base::log(product);
 }
 
-/// Sum of x^n / ((shape + 1) ... (shape + n)), n >= 0 (DLMF 8.7.1).
+/// Returns the sum of x^n / ((shape + 1) ... (shape + n)), n >= 0 (DLMF 8.7.1).
 double lower_series(double shape, double x)
 {
     double sum = 1.0;
@@ -51,8 +52,8 @@ double lower_series(double shape, double x)
     return sum;
 }
 
-/// x^(1-shape) e^x times the upper incomplete gamma function, for x >= shape + 1: its continued
-/// fraction (DLMF 8.9.2) by Lentz's method, modified by Thompson and Barnett.
+/// Returns x^(1-shape) e^x times the upper incomplete gamma function, for x >= shape + 1: its
+/// continued fraction (DLMF 8.9.2) by Lentz's method, modified by Thompson and Barnett.
 double upper_fraction(double shape, double x)
 {
     double b = x + 1.0 - shape;
@@ -90,7 +91,7 @@ double GammaQuantile::at(double z)
     const auto index = std::min(static_cast<std::size_t>(place), nodes - 2);
     const Node& low = node(index);
     const Node& high = node(index + 1);
-    // Hermite's cubic between the two.
+    // Hermite's cubic between the two nodes.
     const double t = place - static_cast<double>(index);
     const double rise = high.value - low.value;
     const double bend_low = low.slope / nodes_per_unit - rise;
@@ -108,14 +109,15 @@ const GammaQuantile::Node& GammaQuantile::node(std::size_t index)
     return node;
 }
 
-/// Newton's method on the logarithm of the smaller tail as a function of w = log x: concave, so it
-/// converges from everywhere, and accurate however far out.
+/// Applies Newton's method to the logarithm of the smaller tail as a function of w = log x. The
+/// function is concave, so the method converges from everywhere, and is accurate however far out.
 GammaQuantile::Node GammaQuantile::solve(double z) const
 {
     const double log_tail = base::log(base::normal_cdf(-std::abs(z)));
     const double log_gamma_next = log_gamma_ + log_shape_; // log gamma(shape + 1)
     const double w_max = base::log(shape_ + 60.0 + 12.0 * std::sqrt(shape_));
-    // Wilson and Hilferty, PNAS 17 (1931), or where that fails the power law near zero.
+    // Starts from Wilson and Hilferty, PNAS 17 (1931), or where that fails from the power law near
+    // zero.
     const double root = 1.0 - 1.0 / (9.0 * shape_) + z / (3.0 * std::sqrt(shape_));
     double w = root > 0.1 ? log_shape_ + 3.0 * base::log(root)
                           : (base::log(base::normal_cdf(z)) + log_gamma_next) / shape_;
@@ -145,8 +147,9 @@ GammaQuantile::Node GammaQuantile::solve(double z) const
     return {w - log_shape_, base::exp(log_bell - log_density)};
 }
 
-/// Cornish and Fisher, Revue de l'Institut International de Statistique 5 (1938), for the gamma
-/// distribution (the coefficients of Goldberg and Levine, Ann. Math. Statist. 17 (1946)).
+/// Returns the quantile by Cornish and Fisher, Revue de l'Institut International de Statistique 5
+/// (1938), for the gamma distribution (the coefficients of Goldberg and Levine, Ann. Math. Statist.
+/// 17 (1946)).
 double GammaQuantile::expansion(double z) const
 {
     const double s = 1.0 / std::sqrt(shape_);

@@ -12,10 +12,11 @@
 
 namespace hapnet::emulator {
 
-/// Quantiles of the gamma distribution of mean 1. From shape 1000 on by the Cornish-Fisher
-/// expansion; below by interpolation between exact values, each worked out when a draw first
-/// comes near it: a new shape costs nothing until it is used, and nothing is allocated. Within
-/// 2e-8 of the true value (relative, or of the mean where that is larger).
+/// Quantiles of the gamma distribution of mean 1. From shape 1000 on it uses the Cornish-Fisher
+/// expansion, and below it interpolates between exact values. Each exact value is computed when a
+/// draw first comes near it, so that a new shape costs nothing until it is used. Nothing is
+/// allocated. The result is within 2e-8 of the true value (relative, or of the mean where that is
+/// larger).
 class GammaQuantile {
 public:
     static constexpr double shape_min = 0.01;
@@ -24,7 +25,7 @@ public:
     /// shape = (mean / sd)^2, at least shape_min.
     explicit GammaQuantile(double shape);
 
-    /// The quantile of probability normal_cdf(z), |z| <= z_max.
+    /// Returns the quantile of probability normal_cdf(z), |z| <= z_max.
     [[nodiscard]] double at(double z);
 
 private:
@@ -43,7 +44,7 @@ private:
     double shape_;
     double log_shape_ = 0.0;
     double log_gamma_ = 0.0;          // log gamma(shape)
-    std::array<Node, nodes> nodes_{}; // NaN: not worked out yet
+    std::array<Node, nodes> nodes_{}; // NaN: not computed yet
 };
 
 /// Gamma on [0, infinity); mean > 0, 0 < sd <= 10 mean.
@@ -72,7 +73,7 @@ public:
 
     [[nodiscard]] base::Duration quantile(double u);
 
-    /// Keeps the quantiles that it has worked out while the shape stays.
+    /// Changes the law. While the shape stays equal, the computed quantiles are kept.
     void change(const GammaLaw& law);
 
 private:

@@ -10,7 +10,7 @@
 
 namespace hapnet::emulator {
 
-/// Gaussian.
+/// The normal (Gaussian) law.
 struct NormalLaw {
     base::Duration mean{};
     base::Duration sd{};

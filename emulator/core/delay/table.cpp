@@ -45,7 +45,7 @@ double QuantileTable::quantile(double u) const
     const auto piece = std::min(static_cast<std::size_t>(place), values_.size() - 2);
     const double low = values_[piece];
     const double high = values_[piece + 1];
-    // Rounding must not carry it beyond: the function ascends.
+    // Rounding must not make the result greater than the next value: the function ascends.
     return std::min(low + (place - static_cast<double>(piece)) * (high - low), high);
 }
 

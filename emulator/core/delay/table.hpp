@@ -15,23 +15,23 @@
 
 namespace hapnet::emulator {
 
-/// A distribution given by values of equal weight: its quantile function runs in straight lines
-/// through the sorted values, from the least at 0 to the greatest at 1.
+/// A distribution given by values of equal weight. Its quantile function interpolates linearly
+/// between the sorted values, from the least at 0 to the greatest at 1.
 class QuantileTable {
 public:
     static constexpr std::size_t values_max = trace_rows_max;
 
-    /// The unit of its values: the file's own, or nanoseconds of delay.
+    /// The unit of the values: the file's own, or nanoseconds of delay.
     enum class Unit { own, nanoseconds };
 
-    /// 1 to values_max finite values in any order.
+    /// Takes 1 to values_max finite values in any order.
     QuantileTable(std::vector<double> values, Unit unit);
 
-    /// 0 <= u <= 1.
+    /// Returns the quantile at u, 0 <= u <= 1.
     [[nodiscard]] double quantile(double u) const;
 
-    /// Mean and standard deviation of the drawn distribution: of the straight lines between the
-    /// values, not of the values.
+    /// Mean and standard deviation of the drawn distribution, which includes the values between the
+    /// given ones by interpolation.
     [[nodiscard]] double mean() const { return mean_; }
     [[nodiscard]] double sd() const { return sd_; }
 
@@ -47,8 +47,8 @@ private:
 };
 
 /// Drawn from a table: a netem .dist file, which is in units of its own, or a file of measured
-/// delays. Stretched and moved until its mean and sd are exactly these; measured delays are taken
-/// as they are when both are zero.
+/// delays. The values are scaled and shifted until their mean and sd are exactly those of the law.
+/// Measured delays are used unchanged when both are zero.
 struct TableLaw {
     std::string file;
     base::Duration mean{};
@@ -64,7 +64,7 @@ struct TableLaw {
     [[nodiscard]] base::Result<void> validate() const;
     [[nodiscard]] LawMoments moments() const;
 
-    /// Compares the contents: the same file read twice is the same law.
+    /// Compares the contents: a file that was read twice gives equal laws.
     friend bool operator==(const TableLaw&, const TableLaw&);
 };
 
@@ -95,9 +95,9 @@ private:
 };
 
 /// Reads a table in the format of tc-netem: whole numbers between blanks, 8192 of them to one
-/// standard deviation, in lines that may begin with '#' to be a comment. At least two that differ.
-/// netem takes such a table at its word, although the tables it comes with do not have the
-/// standard deviation 1 (pareto: 0.82); here it is rescaled until mean and sd are those asked for.
+/// standard deviation. Lines that begin with '#' are comments. At least two numbers must differ.
+/// netem uses such a table unscaled, although its own tables do not have the standard deviation 1
+/// (pareto: 0.82). Here the table is rescaled until mean and sd are those of the law.
 [[nodiscard]] base::Result<std::shared_ptr<const QuantileTable>> parse_dist(std::string_view text);
 
 /// Reads measured delays (see read_trace_rows). Their order does not matter.

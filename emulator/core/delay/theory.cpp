@@ -69,7 +69,7 @@ double clipped_share(const DelayLaw& delay, const DelayLaw& jitter)
     DelayTheory other{jitter};
     if (const auto constant = one.constant()) return other.share_below(-*constant);
     if (const auto constant = other.constant()) return one.share_below(-*constant);
-    // P(one + other < 0), an average over the quantiles of the one.
+    // P(one + other < 0), as an average over the quantiles of `one`.
     constexpr int parts = 1000;
     double sum = 0.0;
     for (int i = 0; i < parts; ++i) sum += other.share_below(-one.quantile((i + 0.5) / parts));

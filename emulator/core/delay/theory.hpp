@@ -11,8 +11,8 @@
 namespace hapnet::emulator {
 
 /// Theoretical properties of a law, known before anything is drawn. They leave out the order of
-/// departure, and that nothing leaves before it arrives (see clipped_share). A correlation changes
-/// none of it.
+/// departure, and the rule that nothing leaves before it arrives (see clipped_share). A correlation
+/// does not change them.
 class DelayTheory {
 public:
     /// `law` is one that validate() accepts.
@@ -20,16 +20,16 @@ public:
 
     [[nodiscard]] base::Duration mean() const { return mean_; }
 
-    /// The standard deviation; nullopt: infinite, or longer than any delay.
+    /// Returns the standard deviation; nullopt: infinite, or longer than any delay.
     [[nodiscard]] std::optional<base::Duration> sd() const { return sd_; }
 
-    /// The delay that a share q of all delays stays below, 0 < q < 1.
+    /// Returns the delay that a share q of all delays stays below, 0 < q < 1.
     [[nodiscard]] base::Duration quantile(double q);
 
-    /// The share of delays below `limit`, within 1e-15.
+    /// Returns the share of delays below `limit`, within 1e-15.
     [[nodiscard]] double share_below(base::Duration limit);
 
-    /// The delay when it is always the same.
+    /// Returns the delay if it is constant.
     [[nodiscard]] std::optional<base::Duration> constant() const;
 
 private:
@@ -39,8 +39,8 @@ private:
     std::vector<TraceLaw::Step> steps_; // values of a trace; empty for other laws
 };
 
-/// The share of datagrams for which delay and jitter together are negative, and which
-/// therefore leave at once: exact when one of the two is constant, else within 1e-3.
+/// Returns the share of datagrams for which delay and jitter together are negative, so that they
+/// leave at once. Exact when one of the two is constant, else within 1e-3.
 [[nodiscard]] double clipped_share(const DelayLaw& delay, const DelayLaw& jitter);
 
 } // namespace hapnet::emulator

@@ -14,7 +14,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// Each value with its share; a straight line in 16 parts.
+/// Returns each value with its share; a linearly interpolated part is divided into 16 steps.
 std::vector<TraceLaw::Step> pieces_of(const TraceLaw& law)
 {
     const auto& delays = law.trace->delays();

@@ -19,34 +19,35 @@
 
 namespace hapnet::emulator {
 
-/// Delays as they were recorded, one after the other.
+/// Recorded delays, replayed in their order.
 ///
 /// By packet: value n is the delay of datagram n, and after the last value the first one follows.
-/// By time: a value holds from its time until that of the next one, or goes there in a straight
-/// line. The last one lasts as long as the one before it, then the first one follows; a single one
-/// holds for ever.
+/// By time: a value is in effect from its time until the time of the next value, or is interpolated
+/// linearly up to the next value. The last value lasts as long as the one before it, and then the
+/// first one follows. A single value lasts for ever.
 class DelayTrace {
 public:
-    /// A trace by packet. `delays` has at least one.
+    /// Makes a trace by packet. `delays` has at least one value.
     explicit DelayTrace(std::vector<base::Duration> delays);
 
-    /// A trace by time. `times` ascend from 0, and there is one for each delay.
+    /// Makes a trace by time. `times` ascend from 0, and there is one for each delay.
     DelayTrace(std::vector<base::Duration> delays, std::vector<base::Duration> times);
 
-    /// The delay of datagram `number`, for a trace by packet. Without repetition the last value
-    /// holds.
+    /// Returns the delay of datagram `number`, for a trace by packet. Without repetition the last
+    /// value lasts for ever.
     [[nodiscard]] base::Duration of(std::uint64_t number, bool repeats = true) const;
 
-    /// The delay at a time since the trace began, for a trace by time.
+    /// Returns the delay at a time since the trace began, for a trace by time.
     [[nodiscard]] base::Duration at(base::Duration time, Interpolation way = Interpolation::step,
                                     bool repeats = true) const;
 
     [[nodiscard]] bool is_by_time() const { return axis_.has_value(); }
 
-    /// The delays in the order of the trace.
+    /// Returns the delays in the order of the trace.
     [[nodiscard]] const std::vector<base::Duration>& delays() const { return delays_; }
 
-    /// The share of the packets (by packet) or of the time (by time) to which a value belongs.
+    /// Returns the share of the packets (by packet) or of the time (by time) to which a value
+    /// belongs.
     [[nodiscard]] double share(std::size_t index) const;
 
     friend bool operator==(const DelayTrace&, const DelayTrace&) = default;
@@ -56,8 +57,8 @@ private:
     std::optional<TimeAxis> axis_; // nullopt: one value for each datagram
 };
 
-/// Read off a trace instead of drawn: value n for datagram n, or the value at its time; either
-/// begins again at its end.
+/// Read from a trace instead of drawn: value n for datagram n, or the value at the time of arrival.
+/// The trace begins again at its end.
 struct TraceLaw {
     std::string file;
     std::shared_ptr<const DelayTrace> trace; // never null
@@ -77,10 +78,11 @@ struct TraceLaw {
         base::Duration delay;
         double share;
     };
-    /// The distribution function; ascending, the last share is 1. Straight lines count as 16 steps.
+    /// Returns the distribution function. It ascends, and the last share is 1. A linearly
+    /// interpolated part counts as 16 steps.
     [[nodiscard]] std::vector<Step> steps() const;
 
-    /// Compares the contents: the same file read twice is the same law.
+    /// Compares the contents: a file that was read twice gives equal laws.
     friend bool operator==(const TraceLaw&, const TraceLaw&);
 };
 
@@ -107,7 +109,7 @@ public:
         return trace_->at(clock_.on_packet(packet.at), interpolate_, repeats);
     }
 
-    /// Changes the law. The same trace with the same timing goes on.
+    /// Changes the law. If trace and timing are the same, the trace continues.
     void change(const TraceLaw& law);
 
 private:

@@ -107,7 +107,7 @@ enum FateColumn : std::size_t {
 
 using FateCells = std::array<std::string_view, column_count>;
 
-/// Takes what stands before the next `separator` off the front of `text`; all of it when there is
+/// Removes and returns the beginning of `text` up to the next `separator`; all of it when there is
 /// none.
 std::string_view take(std::string_view& text, char separator)
 {
@@ -117,7 +117,7 @@ std::string_view take(std::string_view& text, char separator)
     return taken;
 }
 
-/// `regime`: takes the cell of that column; null: there is none.
+/// `regime` receives the cell of that column; null: there is no such column.
 base::Result<FateCells> columns_of(std::string_view line, std::string_view* regime)
 {
     const auto separators = std::count(line.begin(), line.end(), ',');
@@ -150,7 +150,7 @@ base::Result<std::uint8_t> regime_of(std::string_view cell, RegimeNames& known)
     return static_cast<std::uint8_t>(found - known.begin() + 1);
 }
 
-/// A whole number without leading zeros.
+/// Reads a whole number without leading zeros.
 std::optional<std::uint64_t> whole(std::string_view text, std::uint64_t most)
 {
     std::uint64_t value = 0;
@@ -282,7 +282,7 @@ base::Result<Fate> fate_of(const FateCells& columns)
     return fate;
 }
 
-/// Adds the fate in `line` to those before it.
+/// Appends the fate in `line` to `fates`.
 base::Result<void> read_row(std::string_view line, Fates& fates, bool has_regimes)
 {
     std::string_view regime;
@@ -310,7 +310,7 @@ base::Result<void> read_row(std::string_view line, Fates& fates, bool has_regime
     return {};
 }
 
-/// The rows of a table after its head, each read by `read`.
+/// Reads the rows of a table after its head, each by `read`.
 template <typename Read>
 base::Result<void> read_rows(std::string_view text, std::string_view head, const Read& read)
 {
@@ -331,7 +331,7 @@ base::Result<void> read_rows(std::string_view text, std::string_view head, const
     return {};
 }
 
-/// Adds the fate in `row` to those of its path, which is `path` until another one begins.
+/// Adds the fate in `row` to those of its path. `path` and `last` are those of the previous row.
 base::Result<void> read_row_of_path(std::string_view row, FateColumns columns, FatesOfPaths& fates,
                                     Fates*& last, std::string& path)
 {

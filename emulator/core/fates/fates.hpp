@@ -18,7 +18,7 @@
 namespace hapnet::emulator {
 
 // Fates as text: a CSV table with one row for each datagram, first all of up, then all of down,
-// each in the order of their numbers. Equal fates are equal bytes, whatever the timing of the run
+// each in the order of their numbers. Equal fates give equal bytes, whatever the timing of the run
 // that wrote them.
 
 /// The first line, without its end:
@@ -37,18 +37,19 @@ inline constexpr std::string_view fates_header =
     "direction,number,verdict,cause,states,delay_ns,copy_after_ns,flipped_bits,"
     "displaced_places,displaced_ns";
 
-/// The longest time that a fate may hold: so that no sum of them and of a moment overflows.
+/// The longest time in a fate. It ensures that no sum of such times and a time point overflows.
 inline constexpr base::Duration fate_time_max = std::chrono::hours{24 * 1000};
 
 /// The names of the regimes of one direction, in their order.
 using RegimeNames = std::vector<std::string>;
 
 /// Appends the row of a fate, with its end of line, to `text`; allocates only when `text` has to
-/// grow. `regimes`: of its direction, in a table with that column; null: it has none.
+/// grow. `regimes`: the names of the direction's regimes, in a table with that column; null: the
+/// table has no such column.
 void append_row(std::string& text, Direction direction, std::uint64_t number, const Fate& fate,
                 const RegimeNames* regimes = nullptr);
 
-/// The fates of both directions: fate n is that of datagram n.
+/// The fates of both directions. Fate n is that of datagram n.
 struct Fates {
     std::vector<Fate> up;
     std::vector<Fate> down;
@@ -58,27 +59,28 @@ struct Fates {
     friend bool operator==(const Fates&, const Fates&) = default;
 };
 
-/// The whole table.
+/// Returns the whole table.
 [[nodiscard]] std::string to_text(const Fates& fates);
 
-/// Reads the whole table; refuses, with the line and what was expected, everything that to_text()
-/// would not have written.
+/// Reads the whole table. Refuses everything that to_text() would not have written; the error names
+/// the line and says what was expected.
 [[nodiscard]] base::Result<Fates> parse_fates(std::string_view text);
 
-/// Returns the fates with regimes counted as in these lists. The error: a regime that they lack.
+/// Returns the fates with the regimes numbered as in these lists. The error: the lists lack a
+/// regime.
 [[nodiscard]] base::Result<Fates> with_regimes(Fates fates, const RegimeNames& up,
                                                const RegimeNames& down);
 
-// A run with several paths has one more column in front, the name of the path; a run with flows
-// has another one, the name of the flow, or "rest". A run with regimes has one behind the states,
-// the name of the regime; it is empty where a direction has none. The tables of the paths follow
-// each other.
+// A table of a run with several paths has one more column in front, the name of the path. A table
+// of a run with flows has another one, the name of the flow, or "rest". A table of a run with
+// regimes has one behind the states, the name of the regime; it is empty where a direction has
+// none. The tables of the paths follow each other.
 
 inline constexpr std::string_view path_column = "link";
 inline constexpr std::string_view flow_column = "flow";
 inline constexpr std::string_view regime_column = "regime";
 
-/// The columns besides those of a single path without regimes.
+/// The columns that a table has in addition to those of a single path without regimes.
 struct FateColumns {
     bool has_paths = false;
     bool has_flows = false;
@@ -87,9 +89,9 @@ struct FateColumns {
     friend bool operator==(const FateColumns&, const FateColumns&) = default;
 };
 
-/// The first line, without its end.
+/// Returns the first line, without its end.
 [[nodiscard]] std::string head_of_fates(FateColumns columns);
-/// The first cells of each row of a path: "1-2,voice,".
+/// Returns the first cells of each row of a path: "1-2,voice,".
 [[nodiscard]] std::string row_begin(FateColumns columns, std::string_view path);
 
 /// The fates by the names of the paths.
@@ -97,7 +99,7 @@ using FatesOfPaths = std::map<std::string, Fates, std::less<>>;
 
 [[nodiscard]] std::string to_text(const FatesOfPaths& fates);
 
-/// Any of these tables; the only path has the name "", or that of its flow: "flow.voice".
+/// Reads any of these tables. The only path has the name "", or that of its flow: "flow.voice".
 [[nodiscard]] base::Result<FatesOfPaths> parse_fates_of_paths(std::string_view text);
 
 } // namespace hapnet::emulator

@@ -11,8 +11,8 @@
 
 namespace hapnet::emulator {
 
-/// Gives the datagrams of one direction the fates of a run that was recorded, number by number,
-/// instead of drawing them. Datagrams after the last of them are dropped.
+/// Gives each datagram of one direction the fate that the datagram of the same number had in a
+/// recorded run, instead of drawing it. Datagrams after the last recorded one are dropped.
 class Replay {
 public:
     /// `fates` is not null.

@@ -50,7 +50,7 @@ std::optional<Address> parse_ipv4(std::string_view text)
     return Address{0, low};
 }
 
-/// Groups of hexadecimal digits between colons; nullopt: not only such.
+/// Reads groups of hexadecimal digits between colons; nullopt: there is anything else.
 std::optional<std::vector<std::uint16_t>> groups_of(std::string_view text)
 {
     std::vector<std::uint16_t> groups;
@@ -98,7 +98,8 @@ std::string ipv4_text(const Address& address)
                        address.low >> 8U & 255U, address.low & 255U);
 }
 
-/// Prints an address with "::" for the first longest run of at least two zeros (RFC 5952).
+/// Returns the text of an address with "::" for the first longest run of at least two zeros (RFC
+/// 5952).
 std::string ipv6_text(const Address& address)
 {
     std::array<std::uint16_t, 8> groups{};

@@ -23,7 +23,7 @@ struct Address {
     friend bool operator==(const Address&, const Address&) = default;
 };
 
-/// The address in four bytes (IPv4) or in 16 (IPv6), most significant byte first.
+/// Returns the address in four bytes (IPv4) or in 16 (IPv6), most significant byte first.
 [[nodiscard]] inline Address address_of(std::span<const std::byte> bytes)
 {
     const auto number = [&](std::size_t at, std::size_t count) {
@@ -37,23 +37,23 @@ struct Address {
     return {number(0, 8), number(8, 8)};
 }
 
-/// All addresses with the same first bits, of one version of IP.
+/// All addresses of one IP version with the same first bits.
 class Net {
 public:
-    /// The address :: alone, of no version of IP.
+    /// Makes the net of the address :: alone. It contains no address of IP version 4 or 6.
     Net() = default;
 
     /// Reads "10.0.0.0/8", "fe80::/10", or a single address. The error says what to write.
     [[nodiscard]] static base::Result<Net> parse(std::string_view text);
 
-    /// `version`: 4 or 6, that of the packet.
+    /// True if the net contains the address of a packet of this IP version, 4 or 6.
     [[nodiscard]] bool contains(const Address& address, std::uint8_t version) const
     {
         return version == version_ && ((address.high ^ first_.high) & mask_.high) == 0 &&
                ((address.low ^ first_.low) & mask_.low) == 0;
     }
     [[nodiscard]] bool is_single() const { return mask_.low == ~std::uint64_t{0}; }
-    /// The text that parse() reads; a single address without a length.
+    /// Returns the text that parse() reads. For a single address it has no length.
     [[nodiscard]] std::string text() const;
 
     friend bool operator==(const Net&, const Net&) = default;

@@ -20,27 +20,28 @@ namespace hapnet::emulator {
 
 class EmulatedPath;
 
-/// The flows of a path between two ends: which packet belongs to which, and the path of each.
+/// The flows of a path between two ends: the classifier that assigns each packet to a flow, and the
+/// path of each flow.
 class Branches {
 public:
-    /// The paths outlive it.
+    /// The paths must outlive this object.
     Branches(std::shared_ptr<const FlowFilters> filters, std::vector<EmulatedPath*> paths)
         : classifier_{std::move(filters)}, paths_{std::move(paths)}
     {}
 
-    /// The paths of the flows, in the order of the profile.
+    /// Returns the paths of the flows, in the order of the profile.
     [[nodiscard]] std::span<EmulatedPath* const> paths() const { return paths_; }
 
-    /// The flow that a packet belongs to; nullopt: it belongs to none, or its headers are not
-    /// understood.
+    /// Returns the flow that a packet belongs to; nullopt: it belongs to none, or its headers are
+    /// not understood.
     [[nodiscard]] std::optional<std::size_t> flow_of(const std::optional<PacketFacts>& facts,
                                                      base::TimePoint arrival)
     {
         return facts ? classifier_.classify(*facts, arrival) : std::nullopt;
     }
 
-    /// `arrival`, or the latest before it in this direction: flows that share a bottleneck have one
-    /// order of arrival.
+    /// Returns the later one of `arrival` and the latest earlier result for this direction: flows
+    /// that share a bottleneck need one order of arrival.
     [[nodiscard]] base::TimePoint in_order(Direction direction, base::TimePoint arrival)
     {
         auto& latest = latest_[static_cast<std::size_t>(direction)];

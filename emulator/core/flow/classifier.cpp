@@ -20,7 +20,7 @@ std::optional<NumberRange> just(const auto& number)
     return NumberRange{*number, *number};
 }
 
-/// Returns the protocols of a match. A match without a protocol takes all of IP.
+/// Returns the protocols of a match. A match without a protocol accepts all of IP.
 std::optional<NumberRange> protocols_of(const Match& match)
 {
     return match.protocol ? just(match.protocol) : NumberRange{0, PacketFacts::arp - 1};
@@ -36,7 +36,7 @@ bool asks_for_port(const Match& match)
     return match.port || match.ports || match.to_port || match.from_port;
 }
 
-/// True if the addresses are as the match asks.
+/// True if the addresses meet the match.
 bool takes_addresses(const Match& match, const PacketFacts& facts)
 {
     const auto has = [&](const std::optional<Net>& net, const Address& address) {

@@ -18,24 +18,26 @@
 
 namespace hapnet::emulator {
 
-/// The filters of all flows, ready to be asked. A table says of each value of a fact which flows
-/// take it, a bit for each flow, so that a question costs the same for one flow and for sixteen
-/// (bit vectors: Lakshman and Stiliadis, SIGCOMM 1998). Several paths share them.
+/// The filters of all flows, prepared for lookups. For each value of a fact, a table has the set of
+/// flows that accept it, with one bit for each flow, so that a lookup costs the same for one flow
+/// and for sixteen (bit vectors: Lakshman and Stiliadis, SIGCOMM 1998). Several paths share the
+/// filters.
 class FlowFilters {
 public:
-    /// `matches` has at most flows_max, all valid.
+    /// `matches` has at most flows_max elements, all valid.
     explicit FlowFilters(std::span<const Match> matches);
 
-    /// The first flow that takes such a packet, from 0; nullopt: none.
+    /// Returns the first flow that accepts such a packet, counted from 0; nullopt: no flow does.
     [[nodiscard]] std::optional<std::size_t> first(const PacketFacts& facts) const;
 
 private:
     using Flows = std::uint16_t; // one bit for each flow
 
-    /// Says which flows take each number; empty: all take all.
+    /// The set of flows that accept each number. An empty table: all flows accept all numbers.
     class Table {
     public:
-        /// `range_of(match)`: what it asks of the number; nullopt: nothing.
+        /// `range_of(match)` returns the range that a match requires; nullopt: the match has no
+        /// requirement.
         Table(std::span<const Match> matches, std::size_t numbers, const auto& range_of);
 
         [[nodiscard]] Flows at(std::size_t number) const
@@ -60,31 +62,31 @@ private:
     Flows with_nets_ = 0;  // flows that ask for addresses
 };
 
-/// Says which flow each packet of one path belongs to. Later fragments of a packet follow its first
-/// one, as far as it is remembered.
+/// Determines to which flow each packet of one path belongs. Later fragments of a packet belong to
+/// the flow of its first fragment, as long as that is remembered.
 class Classifier {
 public:
     explicit Classifier(std::shared_ptr<const FlowFilters> filters) : filters_{std::move(filters)}
     {}
 
-    /// The flow of a packet that arrived at `at`; nullopt: it belongs to none.
+    /// Returns the flow of a packet that arrived at `at`; nullopt: it belongs to none.
     [[nodiscard]] std::optional<std::size_t> classify(const PacketFacts& facts, base::TimePoint at)
     {
         if (facts.part != PacketFacts::Part::whole) return classify_fragment(facts, at);
         return filters_->first(facts);
     }
 
-    /// The number of later fragments whose first fragment was not remembered. They were classified
-    /// by their own headers, without ports.
+    /// Returns the number of later fragments whose first fragment was not remembered. They were
+    /// classified by their own headers, without ports.
     [[nodiscard]] std::uint64_t unknown_fragments() const { return unknown_fragments_; }
 
-    /// The number of fragmented packets that are remembered at a time, and the time for which each
-    /// one is remembered (RFC 8200, 4.5).
+    /// The greatest number of fragmented packets that are remembered at one time, and the time for
+    /// which each one is remembered (RFC 8200, 4.5).
     static constexpr std::size_t packets_max = 256;
     static constexpr base::Duration remembered_for = std::chrono::seconds{60};
 
 private:
-    /// A packet of which the first fragment has come.
+    /// A packet whose first fragment has arrived.
     struct Fragmented {
         Address from{};
         Address to{};

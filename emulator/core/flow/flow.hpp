@@ -13,14 +13,14 @@
 
 namespace hapnet::emulator {
 
-/// The most flows that a profile may have.
+/// The greatest number of flows in a profile.
 inline constexpr std::size_t flows_max = 16;
 
-/// The name of the traffic that no flow takes.
+/// The name of the traffic that belongs to no flow.
 inline constexpr std::string_view rest_of_flows = "rest";
 
 /// Refuses a name that has other characters than a-z, 0-9 and '-', or that keys of profiles use.
-/// `what` it is to be the name of, for people: "flow".
+/// `what` is the kind of the named thing in the error: "flow".
 [[nodiscard]] base::Result<void> validate_name(std::string_view name, std::string_view what);
 [[nodiscard]] inline base::Result<void> validate_flow_name(std::string_view name)
 {
@@ -33,15 +33,15 @@ struct FlowNameFormat {
     [[nodiscard]] std::string describe() const { return "a name of a-z, 0-9 and -"; }
 };
 
-/// "shared" for true, "own" for false.
+/// Notation: "shared" for true, "own" for false.
 struct SharedFormat {
     void read(const base::Node& node, bool& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(bool value) const { return value ? "\"shared\"" : "\"own\""; }
     [[nodiscard]] std::string describe() const { return "\"shared\" or \"own\""; }
 };
 
-/// Traffic with conditions of its own: its name, what belongs to it, and where it goes. Its
-/// conditions are those of the path flow_path("", name); see path_name.hpp.
+/// Traffic with conditions of its own: its name, the packets that belong to it, and its treatment.
+/// Its conditions are those of the path flow_path("", name); see path_name.hpp.
 struct Flow {
     std::string name;
     Match match;

@@ -38,7 +38,7 @@ constexpr std::array<NamedNumber, 12> protocols{{{"icmp", 1},
 constexpr std::size_t protocol_names = 11;
 constexpr std::uint16_t protocol_max = 255;
 
-/// RFC 2474, 2597, 3246, 5865, 8622.
+/// Code points of RFC 2474, 2597, 3246, 5865, 8622.
 constexpr std::array<NamedNumber, 25> code_points{
     {{"be", 0},    {"le", 1},    {"cs1", 8},   {"cs2", 16},  {"cs3", 24},
      {"cs4", 32},  {"cs5", 40},  {"cs6", 48},  {"cs7", 56},  {"af11", 10},
@@ -47,7 +47,7 @@ constexpr std::array<NamedNumber, 25> code_points{
      {"af43", 38}, {"ef", 46},   {"va", 44},   {"df", 0},    {"cs0", 0}}};
 constexpr std::uint16_t code_point_max = 63;
 
-/// A name of `known`, or a number to `most`.
+/// Reads a name in `known`, or a number up to `most`.
 template <typename Number>
 void read_named(const base::Node& node, std::span<const NamedNumber> known, std::uint16_t most,
                 Number& target, base::Reading& reading)
@@ -81,7 +81,8 @@ std::string named_text(std::uint16_t value, std::span<const NamedNumber> known)
     return found == known.end() ? fmt::format("{}", value) : base::quoted(found->name);
 }
 
-/// Two numbers with `separator` between them. An end that is missing is open, if `may_be_open`.
+/// Reads two numbers with `separator` between them. An end that is missing is open, if
+/// `may_be_open`.
 std::optional<NumberRange> parse_range(std::string_view text, std::string_view separator,
                                        bool may_be_open)
 {

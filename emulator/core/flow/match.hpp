@@ -27,16 +27,16 @@ struct NumberRange {
     friend bool operator==(const NumberRange&, const NumberRange&) = default;
 };
 
-// The notation of the values of a match.
+// Notation of the values of a match.
 
-/// A name such as "udp", or the number of IANA.
+/// A name such as "udp", or a protocol number of IANA.
 struct ProtocolFormat {
     void read(const base::Node& node, std::uint16_t& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(std::uint16_t value) const;
     [[nodiscard]] std::string describe() const;
 };
 
-/// A port, or several: 5004, "5000-5100".
+/// A port, or a range of ports: 5004, "5000-5100".
 struct PortsFormat {
     void read(const base::Node& node, NumberRange& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const NumberRange& value) const;
@@ -114,7 +114,7 @@ constexpr auto fields_of(base::Tag<Match>)
         base::field("size", &M::size, SizesFormat{}, "bytes of the IP packet"));
 }
 
-/// Refuses a match that says nothing, or what no packet can meet.
+/// Refuses a match without conditions, or with conditions that no packet can meet.
 [[nodiscard]] base::Result<void> validate(const Match& match);
 
 } // namespace hapnet::emulator

@@ -27,7 +27,7 @@ enum HeaderKind : std::uint8_t {
     shim6 = 140,
 };
 
-// Compilers turn this form into one load.
+// Compilers convert this form to one load.
 std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t at)
 {
     const std::byte* const b = bytes.subspan(at, 4).data();
@@ -46,7 +46,7 @@ bool carries_ports(std::uint16_t protocol)
     return protocol == tcp || protocol == udp || protocol == sctp || protocol == udp_lite;
 }
 
-/// Reads the ports that stand first in `segment`. False: they are cut off.
+/// Reads the ports at the beginning of `segment`. Returns false if they are truncated.
 bool read_ports(std::span<const std::byte> segment, PacketFacts& facts)
 {
     if (!carries_ports(facts.protocol) || facts.part == PacketFacts::Part::later) return true;
@@ -57,7 +57,7 @@ bool read_ports(std::span<const std::byte> segment, PacketFacts& facts)
     return true;
 }
 
-/// RFC 791.
+/// Returns the facts about an IPv4 packet (RFC 791).
 std::optional<PacketFacts> facts_of_ipv4(std::span<const std::byte> packet)
 {
     constexpr std::size_t header_min = 20;
@@ -83,7 +83,7 @@ std::optional<PacketFacts> facts_of_ipv4(std::span<const std::byte> packet)
     return facts;
 }
 
-/// Returns the length of the extension header at the beginning of `rest`; nullopt: it is none.
+/// Returns the length of the extension header at the beginning of `rest`; nullopt: it is not one.
 std::optional<std::size_t> extension_bytes(std::uint16_t kind, std::span<const std::byte> rest)
 {
     switch (kind) {
@@ -99,7 +99,7 @@ std::optional<std::size_t> extension_bytes(std::uint16_t kind, std::span<const s
     }
 }
 
-/// RFC 8200.
+/// Returns the facts about an IPv6 packet (RFC 8200).
 std::optional<PacketFacts> facts_of_ipv6(std::span<const std::byte> packet)
 {
     constexpr std::size_t header = 40;
@@ -120,7 +120,7 @@ std::optional<PacketFacts> facts_of_ipv6(std::span<const std::byte> packet)
         if (i == extensions_max || *bytes > rest.size()) return std::nullopt;
         const bool is_fragment = facts.protocol == fragment;
         facts.protocol = at8(rest, 0);
-        // Neither an offset nor more to come: an atomic fragment (RFC 6946) is a whole packet.
+        // No offset and no more fragments: an atomic fragment (RFC 6946) is a whole packet.
         if (const unsigned place = is_fragment ? at16(rest, 2) & 0xfff9U : 0; place != 0) {
             facts.part = place >> 3U == 0 ? PacketFacts::Part::first : PacketFacts::Part::later;
             facts.fragment_id = std::uint32_t{at16(rest, 4)} << 16U | at16(rest, 6);

@@ -12,12 +12,12 @@
 
 namespace hapnet::emulator {
 
-/// The facts about a packet that the filters of flows ask for.
+/// The facts about a packet that the filters of flows use.
 struct PacketFacts {
     /// A part of an IP packet, or all of it.
     enum class Part : std::uint8_t { whole, first, later };
 
-    std::uint16_t protocol = 0; // the number of IANA, behind all extension headers; or `arp`
+    std::uint16_t protocol = 0; // IANA protocol number after all extension headers; or `arp`
     std::uint8_t version = 0;   // IP version, 4 or 6; 0: ARP
     std::uint8_t dscp = 0;
     bool has_ports = false;
@@ -29,13 +29,13 @@ struct PacketFacts {
     Address from{};
     Address to{};
 
-    /// Beyond the numbers of IANA.
+    /// A value beyond the protocol numbers of IANA.
     static constexpr std::uint16_t arp = 256;
 };
 
-/// The facts about the packet in the bytes of an Ethernet frame. nullopt: the frame carries
-/// neither IP nor ARP, or its headers are cut off, contradict each other, or do not end after eight
-/// extensions.
+/// Returns the facts about the packet in the bytes of an Ethernet frame. nullopt: the frame carries
+/// neither IP nor ARP, or its headers are truncated, contradict each other, or do not end after
+/// eight extension headers.
 [[nodiscard]] std::optional<PacketFacts> facts_of(const Frame& frame,
                                                   std::span<const std::byte> bytes);
 

@@ -15,8 +15,8 @@
 
 namespace hapnet::emulator {
 
-/// `lost` in a row of every `of`; 0 < lost <= of. A burst begins at the numbers n with
-/// n mod of = phase (< of), or where one draw at the start says.
+/// Loses `lost` datagrams in a row of every `of`; 0 < lost <= of. A burst begins at the numbers n
+/// with n mod of = phase (< of), or at a phase that one draw at the start determines.
 struct Burst {
     std::uint32_t lost = 0;
     std::uint32_t of = 0;
@@ -54,12 +54,12 @@ public:
 
 private:
     Burst law_;
-    std::uint64_t shift_ = 0; // datagram 0 is this far into its period
+    std::uint64_t shift_ = 0; // position of datagram 0 in its period
 };
 
-/// A burst in every period of time: what arrives within `lost` of its beginning, or the first
-/// `lost` datagrams after it. A burst begins at the times t with t mod every = phase (< every), or
-/// where one draw at the start says.
+/// One burst of losses in every period of time: all datagrams that arrive within `lost` of its
+/// beginning, or the first `lost` datagrams after it. A burst begins at the times t with t mod
+/// every = phase (< every), or at a phase that one draw at the start determines.
 struct TimedBurst {
     std::variant<base::Duration, std::uint32_t> lost{};
     base::Duration every{};
@@ -88,8 +88,9 @@ constexpr auto fields_of(base::Tag<TimedBurst>)
                     "time at which a burst begins; drawn if not given"));
 }
 
-/// The run begins in the middle of a period: it meets the rest of a burst in time, but nothing of a
-/// burst in datagrams. A law that sets in later takes the first datagrams that it is shown.
+/// The run begins in the middle of a period. If the burst is a time, the run meets the rest of it;
+/// if it is a number of datagrams, that period loses none. A law that begins later in the run drops
+/// the first datagrams that it is shown.
 class TimedBurst::Model {
 public:
     Model(const TimedBurst& law, const base::RandomStream& stream) { change(law, stream); }

@@ -12,11 +12,12 @@ namespace hapnet::emulator {
 
 namespace {
 
-// The draws for one number.
+// The index of the draws for one datagram.
 constexpr std::uint32_t four_state_step = 1;
 constexpr std::uint32_t four_state_start = 2;
 
-/// Rounded up in the last of its decimals, so that writing it is enough.
+/// Returns the value rounded up in its last decimal, so that the result can be copied from the
+/// message.
 std::string at_least(double value)
 {
     constexpr double thousand = 1000.0;
@@ -69,7 +70,7 @@ double cycle_variance(const FourStateSteps& s, double share)
            s.gap_to_burst * (square(burst_mean) + burst_variance);
 }
 
-/// An isolated loss is a run of one; a run in a burst is geometric.
+/// Returns the lengths of runs. An isolated loss is a run of one. A run in a burst is geometric.
 std::optional<RunLengths> runs_of(const FourStateSteps& steps)
 {
     const auto shares = steps.shares();

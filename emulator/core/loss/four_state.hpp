@@ -10,8 +10,8 @@
 
 namespace hapnet::emulator {
 
-/// The five free probabilities of the four-state chain, per datagram. Judged after the step;
-/// lost_in_gap always goes to received_in_gap.
+/// The five free probabilities of the four-state chain, per datagram. A datagram is judged after
+/// the step. lost_in_gap always goes to received_in_gap.
 struct FourStateSteps {
     double gap_to_burst = 0.0;      // p13: received_in_gap to lost_in_burst
     double gap_to_isolated = 0.0;   // p14: received_in_gap to lost_in_gap
@@ -19,7 +19,7 @@ struct FourStateSteps {
     double burst_to_good_run = 0.0; // p32: lost_in_burst to received_in_burst
     double good_run_to_burst = 0.0; // p23: received_in_burst to lost_in_burst
 
-    /// The shares of datagrams that meet each state.
+    /// The shares of datagrams that are judged in each state.
     struct Shares {
         double received_in_gap, received_in_burst, lost_in_burst, lost_in_gap;
     };
@@ -27,10 +27,10 @@ struct FourStateSteps {
 };
 
 /// The four-state Markov model in its intuitive form (Salsano, Ludovici, Ordine, Giannuzzi,
-/// "Definition of a general and intuitive loss model for packet networks", 2012): the whole share
-/// that is lost; bursts of a mean length in datagrams, within which `density` is lost and the rest
-/// comes in good runs of mean length `good_run` (>= 1); and the share of isolated losses outside
-/// of bursts. isolated < share < density.
+/// "Definition of a general and intuitive loss model for packet networks", 2012). Its parameters
+/// are the total share of losses, the mean length of bursts in datagrams, the share of losses
+/// `density` within them, the mean length `good_run` (>= 1) of the runs of received datagrams
+/// within bursts, and the share of isolated losses outside of bursts. isolated < share < density.
 struct FourState {
     base::Probability share{};
     double burst = 1.0;
@@ -65,7 +65,7 @@ constexpr auto fields_of(base::Tag<FourState>)
                     "mean run of arrivals within a burst, in datagrams"));
 }
 
-/// The first state is drawn from the stationary law; a change of the numbers keeps the state.
+/// The first state is drawn from the stationary law. A change of the parameters keeps the state.
 class FourState::Model {
 public:
     Model(const FourState& law, const base::RandomStream& stream);

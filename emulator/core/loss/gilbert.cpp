@@ -13,7 +13,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-// The draws for one number.
+// The indices of the draws for one datagram.
 constexpr std::uint32_t judging = 0;
 constexpr std::uint32_t stepping = 1;
 constexpr std::uint32_t beginning = 2;
@@ -46,7 +46,7 @@ LossTheory theory_of_chain(const TwoStateSteps& steps)
     return with_memory(theory);
 }
 
-/// Masses of the good and the bad state.
+/// Probability masses of the good and the bad state.
 struct Masses {
     double good, bad;
 };
@@ -202,7 +202,7 @@ std::vector<LossProperty> TimedGilbertElliott::properties(const RunFacts& facts)
     if (facts.spacing) return properties_of_chain(steps(*facts.spacing));
     std::vector<LossProperty> properties{
         Untestable{"the law is in time, and the spacing of the datagrams is not known"}};
-    // Any spacing will do: what is lost in a state does not depend on the steps.
+    // Any spacing can be used, because the losses in a state do not depend on the steps.
     add_losses_in_states(properties, steps(base::Duration{1}));
     return properties;
 }

@@ -34,14 +34,15 @@ namespace hapnet::emulator {
 // The first state is drawn from the stationary law, so that short runs lose their share on average
 // as well (tc-netem starts in the good state). A change of the numbers keeps the state.
 
-/// The probabilities of a chain of two states, per datagram. Judged before the step.
+/// The probabilities of a chain of two states, per datagram. A datagram is judged before the step.
 struct TwoStateSteps {
     double good_to_bad = 0.0;
     double bad_to_good = 0.0;
     double loss_good = 0.0;
     double loss_bad = 0.0;
 
-    /// The share of datagrams that meet the bad state. A chain that never moves is good.
+    /// Returns the share of datagrams that are judged in the bad state. A chain that never moves is
+    /// good.
     [[nodiscard]] double bad_share() const
     {
         const double moves = good_to_bad + bad_to_good;
@@ -49,7 +50,7 @@ struct TwoStateSteps {
     }
 };
 
-/// A chain of two states at work, one step per datagram: the model of each law that has steps().
+/// A running chain of two states, one step per datagram: the model of each law that has steps().
 class TwoStateChain {
 public:
     TwoStateChain(const TwoStateSteps& steps, const base::RandomStream& stream);
@@ -65,16 +66,16 @@ public:
         steps_ = law.steps();
     }
 
-    /// The state in which the last datagram was judged.
+    /// Returns the state in which the last datagram was judged.
     [[nodiscard]] LossState state() const { return state_; }
 
 private:
     TwoStateSteps steps_;
-    bool is_bad_ = false; // the next datagram meets the bad state
+    bool is_bad_ = false; // the next datagram is judged in the bad state
     LossState state_ = LossState::none;
 };
 
-/// Gilbert's model by what one can measure: the share that is lost, and the mean length of a run of
+/// Gilbert's model by measurable parameters: the share of losses, and the mean length of a run of
 /// losses in datagrams (>= 1 and > share / (1 - share)).
 struct Gilbert {
     base::Probability share{};
@@ -139,7 +140,7 @@ constexpr auto fields_of(base::Tag<GilbertElliott>)
 }
 
 /// A Gilbert-Elliott chain in time instead of in datagrams: it stays good and bad for exponential
-/// times of these means (> 0), however fast datagrams come.
+/// times of these means (> 0), whatever the rate of datagrams is.
 struct TimedGilbertElliott {
     base::Duration mean_good{};
     base::Duration mean_bad{};
@@ -150,8 +151,8 @@ struct TimedGilbertElliott {
     static constexpr bool is_in_time = true;
     class Model;
 
-    /// The steps when the next datagram comes `after` this time; sampling the chain like this is
-    /// exact, whatever it did in between.
+    /// Returns the steps when the next datagram comes `after` this time. Sampling the chain like
+    /// this is exact, whatever it did in between.
     [[nodiscard]] TwoStateSteps steps(base::Duration after) const;
 
     [[nodiscard]] base::Result<void> validate() const;
@@ -173,7 +174,8 @@ constexpr auto fields_of(base::Tag<TimedGilbertElliott>)
         base::field("loss_bad", &TimedGilbertElliott::loss_bad, "share lost in the bad state"));
 }
 
-/// The first datagram meets the stationary law, whenever it comes.
+/// The first datagram is judged in a state that is drawn from the stationary law, whenever it
+/// arrives.
 class TimedGilbertElliott::Model {
 public:
     Model(const TimedGilbertElliott& law, const base::RandomStream& stream);

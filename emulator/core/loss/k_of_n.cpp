@@ -17,7 +17,8 @@ LossTheory BlockLoss::theory(const Arrivals& /*arrivals*/) const
     const double n = of;
     // Among n neighbouring pairs, n - 1 lie within a block and one across its end.
     auto theory = theory_from_pairs(k / n, (k * (k - 1.0) / n + k * k / (n * n)) / n);
-    // Two sequences in blocks of n meet the variance of independent ones times 1 + 1 / (n - 1).
+    // The variance for two sequences in blocks of n is that of independent ones times 1 + 1 / (n -
+    // 1).
     theory.memory = 1.0 / std::sqrt(n);
     return theory;
 }

@@ -11,8 +11,8 @@
 
 namespace hapnet::emulator {
 
-/// Exactly `lost` of every `of` in a row, at random places in each such block. Blocks follow each
-/// other from the first datagram under this law. 0 < lost <= of.
+/// Loses exactly `lost` datagrams of every `of` in a row, at random places in each such block.
+/// Blocks follow each other from the first datagram under this law. 0 < lost <= of.
 struct BlockLoss {
     std::uint32_t lost = 0;
     std::uint32_t of = 0;
@@ -43,7 +43,8 @@ public:
 
     [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream);
 
-    /// A block that has begun keeps what it has lost, and comes as close to the new law as it can.
+    /// Changes the law. A block that has begun keeps its losses so far, and comes as close to the
+    /// new law as it can.
     void change(const BlockLoss& law, const base::RandomStream&);
 
 private:

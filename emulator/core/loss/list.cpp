@@ -35,7 +35,7 @@ std::vector<LossProperty> ListedLoss::properties(const RunFacts& facts) const
 bool ListedLoss::Model::on_packet(const Packet& packet, const base::RandomStream& /*stream*/)
 {
     const auto& lost = law_.numbers.get();
-    // After a change the place may be far away.
+    // After a change the next listed number may be far away.
     if (next_ < lost.size() && lost[next_] < packet.number) {
         const auto from = lost.begin() + static_cast<std::ptrdiff_t>(next_);
         const auto place = std::lower_bound(from, lost.end(), packet.number);

@@ -14,7 +14,7 @@
 
 namespace hapnet::emulator {
 
-/// The datagrams of these numbers, ascending.
+/// Loses the datagrams of these numbers, which ascend.
 struct ListedLoss {
     base::SharedVector<std::uint64_t> numbers;
 

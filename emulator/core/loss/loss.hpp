@@ -27,18 +27,20 @@
 
 namespace hapnet::emulator {
 
-// The laws of loss. Each has a file of its own with its parameters, its model, its theory, and what
-// is impossible about it; docs/design/add-a-loss-law.md walks through one.
+// The laws of loss. Each has a file of its own with its parameters, its model, its theory, and the
+// check of its parameters; docs/design/add-a-loss-law.md explains how to add one.
 
-/// The laws, as a person states them. A law that advances by datagrams counts every datagram of its
-/// direction, whatever other laws do to them.
+/// A law, as a person states it. A law that advances by datagrams counts every datagram of its
+/// direction, whatever other laws do to it.
 using LossLaw = std::variant<RandomLoss, BlockLoss, PeriodicLoss, Burst, TimedBurst, Gilbert,
                              GilbertElliott, TimedGilbertElliott, FourState, ListedLoss,
                              PatternLoss, TraceLoss, TimedTraceLoss, Outage>;
 
-/// A law at work: made from the law and a stream, shown every datagram in the order of their
-/// numbers, says whether it is lost, and may be changed to other numbers. One with states also has
-///     LossState state() const;  in which the last datagram was judged
+/// A running law. It is made from the law and a random stream, sees every datagram in the order of
+/// their numbers, decides whether each is lost, and can be changed to other parameters. A model
+/// with states also has
+///
+/// LossState state() const; the state in which the last datagram was judged
 template <typename Model, typename Law>
 concept LossModelOf = requires(Model model, const Law& law, const base::RandomStream& stream,
                                const Packet& packet)
@@ -55,21 +57,21 @@ concept LawOfLoss = base::Described<Law> && std::equality_comparable<Law> &&
     LossModelOf<typename Law::Model, Law> &&
     requires(const Law& law, const Arrivals& arrivals, const RunFacts& facts)
 {
-    // of the drops, in statistics and fates
+    // the cause of its drops, in statistics and fates
     requires std::convertible_to<decltype(Law::cause), DropCause>;
-    // whether its losses depend on when datagrams come
+    // true if its losses depend on the arrival times of datagrams
     requires std::convertible_to<decltype(Law::is_in_time), bool>;
-    // what is impossible, in the units that a person writes
+    // refuses impossible parameters, in the units that a person writes
     requires std::same_as<decltype(law.validate()), base::Result<void>>;
     // closed forms for people
     requires std::same_as<decltype(law.theory(arrivals)), LossTheory>;
-    // tests that a run of it passes
+    // the tests that a run of the law passes
     requires std::same_as<decltype(law.properties(facts)), std::vector<LossProperty>>;
 };
 
-/// Runs one of some laws: one datagram after the other. The fate of datagram n is a function of the
-/// stream, of n, and for laws with a state or in time of the datagrams before. Allocates nothing.
-/// The law has to be one that validate() accepts.
+/// Runs one law of some laws, one datagram after the other. The fate of datagram n is a function of
+/// the stream and of n, and for laws with a state or in time also of the datagrams before.
+/// Allocates nothing. The law must be one that validate() accepts.
 template <typename Laws>
 class LossProcessOf;
 
@@ -82,8 +84,8 @@ public:
         : stream_{stream}, running_{started(law, stream)}
     {}
 
-    /// Why the datagram is lost; nullopt: it passes. Every datagram of the direction is shown here
-    /// once, in the order of their numbers.
+    /// Returns why the datagram is lost; nullopt: it passes. Call it once for every datagram of the
+    /// direction, in the order of their numbers.
     [[nodiscard]] std::optional<DropCause> on_packet(const Packet& packet)
     {
         return std::visit(
@@ -95,10 +97,10 @@ public:
             running_);
     }
 
-    /// The state in which the law judged the last datagram.
+    /// Returns the state in which the law judged the last datagram.
     [[nodiscard]] LossState state() const { return state_; }
 
-    /// Holds from the next datagram on. A law of the same kind goes on from its state.
+    /// Changes the law from the next datagram on. A law of the same kind continues from its state.
     void change(const Law& law)
     {
         std::visit(
@@ -114,7 +116,7 @@ public:
     }
 
 private:
-    /// Laws may share a type of model.
+    /// The model of one law. The law is part of the type because laws may share a type of model.
     template <typename One>
     struct Running {
         typename One::Model model;
@@ -145,7 +147,7 @@ using LossProcess = LossProcessOf<LossLaw>;
 /// units that a person writes, without naming the law or the place.
 [[nodiscard]] base::Result<void> validate(const LossLaw& law);
 
-/// True if the losses depend on when datagrams come.
+/// True if the losses depend on the arrival times of datagrams.
 [[nodiscard]] bool is_in_time(const LossLaw& law);
 
 [[nodiscard]] LossTheory theory_of(const LossLaw& law, const Arrivals& arrivals);

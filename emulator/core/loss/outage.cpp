@@ -54,7 +54,7 @@ base::Result<void> Outage::validate() const
 
 LossTheory Outage::theory(const Arrivals& arrivals) const
 {
-    // Datagram n comes at n times the spacing: how many come before a time.
+    // Datagram n arrives at n times the spacing. This counts the arrivals before a time.
     const auto count = static_cast<double>(arrivals.count);
     const auto before = [&](base::Duration time) {
         const auto whole = time / arrivals.spacing;
@@ -79,7 +79,7 @@ std::vector<LossProperty> Outage::properties(const RunFacts& /*facts*/) const
 bool Outage::Model::on_packet(const Packet& packet, const base::RandomStream& /*stream*/)
 {
     const auto& outages = law_.windows.get();
-    // After a change the place may be far away.
+    // After a change the next window may be far away.
     if (next_ < outages.size() && outages[next_].to <= packet.at) {
         const auto from = outages.begin() + static_cast<std::ptrdiff_t>(next_);
         const auto place = std::partition_point(

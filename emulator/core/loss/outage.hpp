@@ -14,7 +14,7 @@
 
 namespace hapnet::emulator {
 
-/// A time during which everything is lost: from <= t < to, since the run began. from < to.
+/// A time in which everything is lost: from <= t < to, since the run began. from < to.
 struct Window {
     base::Duration from{};
     base::Duration to{};
@@ -22,7 +22,7 @@ struct Window {
     friend bool operator==(const Window&, const Window&) = default;
 };
 
-/// Windows, ascending and apart from each other.
+/// Windows of total loss, ascending and apart from each other.
 struct Outage {
     base::SharedVector<Window> windows;
 
@@ -37,7 +37,7 @@ struct Outage {
     friend bool operator==(const Outage&, const Outage&) = default;
 };
 
-/// [["10s", "12s"], ["20s", "21s"]]
+/// Notation: [["10s", "12s"], ["20s", "21s"]]
 struct WindowList {
     void read(const base::Node& node, std::vector<Window>& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const std::vector<Window>& value) const;

@@ -14,7 +14,7 @@
 
 namespace hapnet::emulator {
 
-/// A pattern that repeats: true is lost. Not empty.
+/// A pattern that repeats. true: the datagram is lost. Not empty.
 struct PatternLoss {
     base::SharedVector<bool> pattern;
 
@@ -29,7 +29,7 @@ struct PatternLoss {
     friend bool operator==(const PatternLoss&, const PatternLoss&) = default;
 };
 
-/// "0010": of every four datagrams the third is lost. At most 10^6 digits.
+/// Reads a pattern. "0010": of every four datagrams the third is lost. At most 10^6 digits.
 [[nodiscard]] base::Result<std::vector<bool>> parse_pattern(std::string_view text);
 [[nodiscard]] std::string to_text(const std::vector<bool>& pattern);
 

@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator {
 
-/// Every n-th: the numbers n with n mod every = phase. every > 0, phase < every.
+/// Loses every n-th datagram: the numbers n with n mod every = phase. every > 0, phase < every.
 struct PeriodicLoss {
     std::uint32_t every = 1;
     std::uint32_t phase = 0;

@@ -26,33 +26,34 @@ struct Arrivals {
     std::uint64_t count = 0;  // > 0
 };
 
-/// The behaviour of a law of loss in the long run; for lists and outages, which have an end, over
-/// the arrivals in question. Only the laws in time depend on the spacing.
+/// The behaviour of a law of loss in the long run. For lists and outages, which have an end, it is
+/// the behaviour over the given arrivals. Only the laws in time depend on the spacing.
 struct LossTheory {
     double share = 0.0;
     std::optional<double> mean_run{};        // length in datagrams; nullopt: no runs, or endless
     std::optional<double> loss_after_loss{}; // probability; nullopt: nothing is lost
-    /// The correlation of a state of the law with the next one, where it has one number for it.
+    /// The correlation of a state of the law with the next one, if one number describes it.
     std::optional<double> decay{};
     /// The variance of the share that n datagrams lose, divided by that of independent losses, for
     /// large n: (1 + decay) / (1 - decay) for Gilbert's model; 0 for laws that leave nothing to
     /// chance.
     double variance_inflation = 0.0;
-    /// The correlation of a loss with the next one as one number that is not too small; nullopt for
-    /// laws that draw nothing, or only a phase.
+    /// The correlation of a loss with the next one, as one number that is not an underestimate;
+    /// nullopt for laws that draw nothing, or only a phase.
     std::optional<double> memory{};
 };
 
-/// `both`: the probability that two neighbours are lost.
+/// Returns the theory of losses with this share. `both`: the probability that two neighbours are
+/// lost.
 [[nodiscard]] LossTheory theory_from_pairs(double share, double both);
 
-/// The theory of losses that are not drawn at random, in `runs` runs.
+/// Returns the theory of losses that are not drawn at random, in `runs` runs.
 [[nodiscard]] LossTheory theory_from_counts(double count, double losses, double runs);
 
 /// Adds the memory of losses that are drawn one by one.
 [[nodiscard]] LossTheory with_memory(LossTheory theory);
 
-/// The theory of losses that repeat after `size` datagrams.
+/// Returns the theory of losses that repeat after `size` datagrams.
 template <typename IsLost>
 [[nodiscard]] LossTheory theory_of_period(std::size_t size, IsLost&& is_lost)
 {
@@ -66,14 +67,15 @@ template <typename IsLost>
     return theory_from_counts(static_cast<double>(size), losses, runs);
 }
 
-// Properties, each a test that emulator/tools/verify knows how to do.
+// The properties of a law. Each is a test that emulator/tools/verify can do.
 
-/// Losses of each datagram on its own. Their number is tested, and that neighbours are independent.
+/// Each datagram is lost independently of the others. The test is of the number of losses, and of
+/// the independence of neighbours.
 struct IndependentLosses {
     double share = 0.0;
 };
 
-/// The share that is lost in the long run, within the theory's variance.
+/// The share of losses in the long run, within the variance of the theory.
 struct LongRunShare {
     LossTheory theory;
 };
@@ -83,28 +85,31 @@ struct RunLengths {
     static constexpr std::size_t most = 10'000; // longer runs share the last bin
 
     std::vector<double> at_least; // [i]: the probability that a run has i + 1 datagrams or more
-    double memory = 0.0;          // the correlation of what a run leaves behind with the next one
+    // Correlation of the states in which a run and the next run begin.
+    double memory = 0.0;
 };
 
-/// Exactly `lost` of every `of` from the first datagram on, at places that are equally likely.
+/// Exactly `lost` of every `of` datagrams are lost from the first datagram on, at places that are
+/// equally likely.
 struct ExactBlocks {
     std::uint32_t lost = 0;
     std::uint32_t of = 0;
 };
 
-/// `lost` in a row of every `of`, from `phase` on, or from wherever the first of them begins.
+/// `lost` datagrams in a row of every `of` are lost, from `phase` on, or from wherever the first
+/// burst begins.
 struct RecurringBursts {
     std::uint32_t lost = 0;
     std::uint32_t of = 0;
     std::optional<std::uint32_t> phase{};
 };
 
-/// These and no others: nothing is drawn.
+/// Exactly these datagrams are lost. Nothing is drawn.
 struct SameLosses {
     std::vector<std::uint8_t> lost; // 1: lost; the index is the datagram's number
 };
 
-/// The share that is lost of the datagrams that meet a state.
+/// The share of losses among the datagrams that are judged in a state.
 struct LossesInState {
     LossState state = LossState::none;
     double share = 0.0;
@@ -126,7 +131,7 @@ using LossProperty =
     std::variant<IndependentLosses, LongRunShare, RunLengths, ExactBlocks, RecurringBursts,
                  SameLosses, LossesInState, StateStep, Untestable>;
 
-/// Facts about a run besides its losses.
+/// Facts about a run other than its losses.
 struct RunFacts {
     std::uint64_t count = 0;                 // number of datagrams
     std::optional<base::Duration> spacing{}; // between datagrams, if they came evenly; > 0
@@ -146,7 +151,8 @@ template <typename Law>
     return same;
 }
 
-/// Runs that go on with the same probability after each datagram; nullopt unless it is in [0, 1).
+/// Returns the lengths of runs that continue with the same probability after each datagram; nullopt
+/// unless it is in [0, 1).
 [[nodiscard]] std::optional<RunLengths> geometric_runs(double goes_on);
 
 } // namespace hapnet::emulator

@@ -64,7 +64,7 @@ base::Result<void> TimedTraceLoss::validate() const
 LossTheory TimedTraceLoss::theory(const Arrivals& arrivals) const
 {
     base::ensure(trace != nullptr);
-    // More arrivals change nothing that a person could see.
+    // More arrivals do not change the result visibly.
     const auto count = std::min<std::uint64_t>(arrivals.count, 1'000'000);
     double losses = 0.0;
     double both = 0.0;

@@ -16,7 +16,7 @@
 
 namespace hapnet::emulator {
 
-/// The share of the datagrams that is lost at each time.
+/// The share of datagrams that is lost at each time.
 class LossSeries {
 public:
     /// `times` ascend from 0, and there is one for each share.
@@ -32,8 +32,8 @@ private:
     TimeAxis axis_;
 };
 
-/// Reads a table of times, or with slots, and of shares, or of delays, where a lost one is a share
-/// of 1 and any other 0 (see read_trace_rows). The error names the line.
+/// Reads a table of times, or with slots, and of shares or delays (see read_trace_rows). A delay
+/// counts as a share of 0, and a lost datagram as a share of 1. The error names the line.
 [[nodiscard]] base::Result<LossSeries> parse_loss_series(std::string_view text,
                                                          const TableFormat& format = {});
 
@@ -55,7 +55,7 @@ struct TimedTraceLoss {
     [[nodiscard]] LossTheory theory(const Arrivals& arrivals) const;
     [[nodiscard]] std::vector<LossProperty> properties(const RunFacts& facts) const;
 
-    /// Compares the contents: the same file read twice is the same law.
+    /// Compares the contents: a file that was read twice gives equal laws.
     friend bool operator==(const TimedTraceLoss& a, const TimedTraceLoss& b);
 };
 
@@ -79,7 +79,7 @@ public:
 
     [[nodiscard]] bool on_packet(const Packet& packet, const base::RandomStream& stream);
 
-    /// Changes the law. The same trace with the same timing goes on.
+    /// Changes the law. If trace and timing are the same, the trace continues.
     void change(const TimedTraceLoss& law, const base::RandomStream& stream);
 
 private:

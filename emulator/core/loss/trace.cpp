@@ -13,7 +13,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// Takes the first line off the text, without its end.
+/// Removes and returns the first line of the text, without its end.
 std::string_view take_line(std::string_view& text)
 {
     const auto end = std::min(text.find('\n'), text.size());

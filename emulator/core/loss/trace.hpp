@@ -17,13 +17,13 @@
 
 namespace hapnet::emulator {
 
-/// Says of each datagram of a recorded run if it was lost. It begins again at its end. It has at
+/// The losses of a recorded run, datagram by datagram. The trace begins again at its end. It has at
 /// least one datagram.
 class LossTrace {
 public:
     static constexpr std::size_t datagrams_max = 10'000'000;
 
-    /// Ensures that there is at least one and at most datagrams_max.
+    /// Ensures that there are at least one and at most datagrams_max datagrams.
     explicit LossTrace(std::vector<bool> lost);
 
     [[nodiscard]] bool is_lost(std::uint64_t number) const { return lost_[number % lost_.size()]; }
@@ -37,16 +37,17 @@ private:
     std::size_t losses_;
 };
 
-/// A file of 0 (arrived) and 1 (lost), one after the other; blanks and line ends between them mean
-/// nothing, and '#' begins a comment. Errors name the line.
+/// Reads a file of 0 (arrived) and 1 (lost), one after the other. Blanks and line ends between them
+/// have no meaning, and '#' begins a comment. Errors name the line.
 [[nodiscard]] base::Result<LossTrace> parse_loss_trace(std::string_view text);
 
-/// The column `lost` (0 or 1) of a table, or the one that the format names; without one, the delays
-/// that say that a datagram was lost (see read_trace_rows). Errors name the line.
+/// Reads the column `lost` (0 or 1) of a table, or the one that the format names. Without such a
+/// column, the column of delays shows which datagrams were lost (see read_trace_rows). Errors name
+/// the line.
 [[nodiscard]] base::Result<LossTrace> parse_loss_table(std::string_view text,
                                                        const TableFormat& format = {});
 
-/// The losses of a recorded run; begins again at its end.
+/// Repeats the losses of a recorded run. The trace begins again at its end.
 struct TraceLoss {
     std::string file;
     std::shared_ptr<const LossTrace> trace; // never null
@@ -62,7 +63,7 @@ struct TraceLoss {
     [[nodiscard]] LossTheory theory(const Arrivals&) const;
     [[nodiscard]] std::vector<LossProperty> properties(const RunFacts&) const;
 
-    /// Compares the contents: the same file read twice is the same law.
+    /// Compares the contents: a file that was read twice gives equal laws.
     friend bool operator==(const TraceLoss&, const TraceLoss&);
 };
 

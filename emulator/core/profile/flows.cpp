@@ -18,7 +18,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// The tables of settings of one flow.
+/// Reads the tables of settings of one flow.
 std::vector<Setting> read_flow_settings(TableReader& table, const std::string& path)
 {
     constexpr std::array<std::pair<std::string_view, std::optional<Direction>>, 3> ways{

@@ -20,7 +20,8 @@ constexpr std::array<std::string_view, sizeof...(Laws)> names_of_laws(const std:
     return {base::described_name<Laws>...};
 }
 
-/// The law that { law = "name", ... } names, with its parameters: the last keys to be asked for.
+/// Reads the law that { law = "name", ... } names, with its parameters. They must be the last keys
+/// that are read from the table.
 template <typename... Laws>
 std::variant<Laws...> read_law(TableReader& table, std::variant<Laws...> otherwise)
 {

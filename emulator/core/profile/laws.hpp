@@ -15,20 +15,21 @@ namespace hapnet::emulator {
 /// to 5 ms as a jitter.
 enum class Role { delay, jitter };
 
-/// "160ms", "none" or { law = ..., ..., correlation_time = ... }. The table's order of departure,
-/// if it has one, is put into `order`.
+/// Reads "160ms", "none" or { law = ..., ..., correlation_time = ... }. The order of departure of
+/// the table, if there is one, is stored in `order`.
 [[nodiscard]] Variation read_variation(const Node& node, Role role, std::optional<Order>& order,
                                        Reading& reading);
 [[nodiscard]] std::string variation_text(const Variation& variation, Role role);
 
-/// "93%", "40/100", "none", { law = ... } or a list of them.
+/// Reads "93%", "40/100", "none", { law = ... } or a list of them.
 [[nodiscard]] std::vector<LossLaw> read_losses(const Node& node, Reading& reading);
 [[nodiscard]] std::string losses_text(const std::vector<LossLaw>& laws);
 
-/// "40/100": lost / of. Complains of anything else; 0 lost is a fault of the law.
+/// Reads "40/100": lost / of. Reports an error for any other text. A value of 0 lost is left to the
+/// check of the law.
 [[nodiscard]] Burst read_burst(const Node& node, Reading& reading);
 
-/// "keep", "free" or "sorted".
+/// Reads "keep", "free" or "sorted".
 [[nodiscard]] Order read_order(const Node& node, Reading& reading);
 
 } // namespace hapnet::emulator

@@ -48,7 +48,8 @@ const Flow* find_flow(std::span<const Flow> flows, std::string_view path)
     return found == flows.end() ? nullptr : &*found;
 }
 
-/// Takes out of `own`, which is to be of a flow, what holds for the rest alone.
+/// Removes from `own`, which is the profile of a flow, the settings that apply only to the other
+/// traffic.
 void leave_inherited(Profile& own, const Profile& profile, std::string_view path)
 {
     const Flow* flow = find_flow(profile.flows, path);
@@ -166,7 +167,7 @@ JoinedPatch joined(std::vector<PathPatch> patches)
 
 namespace {
 
-/// Joins the profiles of paths of one kind: all that carry the rest beside the flows, or all of one
+/// Joins the profiles of paths of one kind: all that carry the traffic in no flow, or all of one
 /// flow.
 Profile joined_of_kind(std::span<const NamedProfile> profiles)
 {

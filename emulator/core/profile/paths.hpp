@@ -12,17 +12,17 @@
 
 namespace hapnet::emulator {
 
-// A profile of several paths, and what it is to each of them.
+// Functions on a profile of several paths and its meaning for each of them.
 
-/// The paths that have something of their own in it, ascending by their names.
+/// Returns the paths that have settings of their own in the profile, ascending by their names.
 [[nodiscard]] std::vector<std::string> paths_in(const Profile& profile);
 
-/// Returns the profile of this path alone. Its timeline has the same changes, also those that
-/// change nothing here. A flow takes only the MTU from the conditions of all paths, and nothing if
-/// it passes untouched.
+/// Returns the profile of this path alone. Its timeline has all the changes, including those that
+/// have no effect on this path. A flow takes only the MTU from the conditions of all paths, and
+/// nothing if it passes untouched.
 [[nodiscard]] Profile profile_of(const Profile& profile, std::string_view path);
 
-/// Timeline::validate() of every path.
+/// Applies Timeline::validate() to every path.
 [[nodiscard]] tl::expected<void, Timeline::BadChange> validate_timelines(const Profile& profile);
 
 /// The profile of one of several paths.
@@ -30,13 +30,14 @@ struct NamedProfile {
     std::string path;
     Profile profile;
 };
-/// Joins profiles into one that has the same effect on each path as its own. Settings that most
-/// paths have at the beginning, and equal changes on all of them, are written once for all.
-/// `flows`: those that the paths have.
+/// Joins profiles into one that has the same effect on each path as its own profile. Settings that
+/// most paths have at the beginning, and equal changes on all paths, are written once for all.
+/// `flows`: the flows that the paths have.
 [[nodiscard]] Profile joined(std::span<const NamedProfile> profiles,
                              std::span<const Flow> flows = {});
 
-/// One patch for several paths: the settings that are equal for all, and the rest of each.
+/// One patch for several paths: the settings that are equal for all, and the other settings of each
+/// path.
 struct JoinedPatch {
     Patch up;
     Patch down;
@@ -44,10 +45,11 @@ struct JoinedPatch {
 };
 [[nodiscard]] JoinedPatch joined(std::vector<PathPatch> patches);
 
-/// Returns the settings that lead from one to the other.
+/// Returns the settings that lead from `before` to `after`.
 [[nodiscard]] Patch difference(const Conditions& before, const Conditions& after);
 
-/// The patch of this path in `patches`, made if there is none; they stay in their order.
+/// Returns the patch of this path in `patches`, and adds it if there is none. The patches stay
+/// ordered.
 [[nodiscard]] PathPatch& patch_for(std::vector<PathPatch>& patches, std::string_view path);
 
 } // namespace hapnet::emulator

@@ -7,7 +7,7 @@
 
 namespace hapnet::emulator {
 
-/// A profile that every emulator carries with it: a file of scripts/profiles.
+/// A built-in profile: a file of scripts/profiles.
 struct Preset {
     std::string_view name; // file name without .toml
     std::string_view text;

@@ -14,7 +14,7 @@
 
 namespace hapnet::emulator {
 
-/// The settings that one of several paths has of its own, over those of all paths.
+/// The settings of one of several paths, which override those of all paths.
 struct PathPatch {
     std::string path; // name of the path; see path_name.hpp
     Patch up;
@@ -23,8 +23,8 @@ struct PathPatch {
     friend bool operator==(const PathPatch&, const PathPatch&) = default;
 };
 
-/// A point of the timeline: from `time` since the run began these settings hold. With a ramp they
-/// are approached in a straight line from what held before and reached at time + ramp; only
+/// A point of the timeline: these settings are in effect from `time` since the run began. With a
+/// ramp, the values change linearly from the previous ones and are reached at time + ramp. Only
 /// numbers of the same law can be ramped.
 struct Change {
     base::Duration time{};
@@ -39,17 +39,19 @@ struct Change {
 /// The contents of a profile file.
 struct Profile {
     std::string name;
-    std::optional<base::Seed> seed;        // nullopt: the file does not say
-    Path path;                             // conditions at the beginning
-    std::vector<Change> timeline;          // ascending in time
-    std::vector<PathPatch> paths{};        // ascending by their names
-    std::vector<base::Condition> checks{}; // what the statistics of a run must meet in the end
-    std::vector<Flow> flows{};             // a packet belongs to the first that matches
+    std::optional<base::Seed> seed; // nullopt: the file does not say
+    Path path;                      // conditions at the beginning
+    std::vector<Change> timeline;   // ascending in time
+    std::vector<PathPatch> paths{}; // ascending by their names
+    // Conditions that the statistics of a run must meet at its end
+    std::vector<base::Condition> checks{};
+    std::vector<Flow> flows{}; // a packet belongs to the first that matches
 
     friend bool operator==(const Profile&, const Profile&) = default;
 };
 
-/// A profile translated from another notation, and a sentence on each part that it cannot express.
+/// A profile translated from another notation, with a sentence about each part that it cannot
+/// express.
 struct TranslatedProfile {
     Profile profile;
     std::vector<std::string> warnings;

@@ -14,9 +14,10 @@ namespace hapnet::emulator {
 
 namespace {
 
-// between(a, b, progress): the point between two values; nullopt when there is none. base knows
-// that of numbers and of structs field by field; here stand the exceptions. Where the parameters of
-// a law bound each other, the bounds are convex: between possible laws all are.
+// between(a, b, progress) returns the point between two values, or nullopt when there is none. base
+// defines it for numbers and, field by field, for structs; the exceptions are here. Where the
+// parameters of a law limit each other, the limits are convex: all laws between two valid laws are
+// valid.
 
 template <typename T>
 std::optional<T> only_equal(const T& a, const T& b)
@@ -24,8 +25,8 @@ std::optional<T> only_equal(const T& a, const T& b)
     return a == b ? std::optional{b} : std::nullopt;
 }
 
-/// Interpolates between two laws of one kind. The bounds of FourState are not convex; delays taken
-/// as they were measured have no mean and sd to go from or to.
+/// Interpolates between two laws of one kind. The limits of FourState are not convex, and measured
+/// delays that are used unchanged have no mean and sd to interpolate.
 template <typename Laws>
 std::optional<Laws> between_laws(const Laws& a, const Laws& b, double progress)
 {
@@ -41,7 +42,7 @@ std::optional<Laws> between_laws(const Laws& a, const Laws& b, double progress)
     return base::between(a, b, progress);
 }
 
-/// Nothing, as a law of the kind of `other`, where that can be nothing.
+/// Returns a law of the kind of `other` that has no effect, if that kind can have none.
 DelayLaw nothing_like(const DelayLaw& other)
 {
     if (std::holds_alternative<UniformLaw>(other)) return UniformLaw{};
@@ -75,7 +76,7 @@ std::optional<std::vector<LossLaw>> between(std::vector<LossLaw> a, std::vector<
     return b;
 }
 
-/// A value with a share of zero takes over the other parameters of the other value.
+/// Interpolates. A value with a share of zero adopts the other parameters of the other value.
 template <typename Stage>
 std::optional<Stage> between_shares(Stage a, Stage b, double progress)
 {
@@ -126,7 +127,7 @@ std::optional<Rate> between(const Rate& a, const Rate& b, double progress)
     return base::between(a, b, progress);
 }
 
-/// Returns the reason why there is nothing between `a` and `b`, to stand after the key of the
+/// Returns the reason why there is nothing between `a` and `b`. The reason follows the key of the
 /// setting.
 template <typename Value>
 std::string obstacle(const Value&, const Value&)

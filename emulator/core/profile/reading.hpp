@@ -6,7 +6,7 @@
 
 namespace hapnet::emulator {
 
-// The words of base for texts, which the language of profiles is built from.
+// The classes of base for reading texts, on which the language of profiles is built.
 using base::DocumentError;
 using base::Node;
 using base::OpenFile;

@@ -54,7 +54,7 @@ std::string regime_text(const Regime& regime)
     return table_text(texts);
 }
 
-/// The regimes that set what `key` sets.
+/// Returns the names of the regimes that set the setting `key`.
 std::vector<std::string> setters_of(std::string_view key, const Regimes& regimes)
 {
     std::vector<std::string> names;

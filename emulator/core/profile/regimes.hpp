@@ -16,25 +16,26 @@
 
 namespace hapnet::emulator {
 
-/// Conditions of a regime that is there already.
+/// Conditions of a regime that exists already.
 struct RegimePatch {
     std::string regime;
     Patch own;
 };
 
-/// A list of tables, each with a name, a stay and conditions: all regimes of a direction. "none" or
-/// an empty list: there are none.
+/// Reads a list of tables, each with a name, a stay and conditions: all regimes of a direction.
+/// "none" or an empty list: there are none.
 [[nodiscard]] base::SharedVector<Regime> read_regimes(const Node& node, Reading& reading);
-/// A table of tables by their names: conditions of regimes that are there already.
+/// Reads a table of tables by their names: conditions of regimes that exist already.
 [[nodiscard]] std::vector<RegimePatch> read_regime_patches(const Node& node, Reading& reading);
 /// Prints the regimes as TOML, on one line.
 [[nodiscard]] std::string regimes_text(const Regimes& regimes);
 
-/// The regimes with other conditions. The error: there is none of this name.
+/// Returns the regimes with the changed conditions. The error: there is no regime of this name.
 [[nodiscard]] base::Result<Regimes> with_patch(const Regimes& regimes, const RegimePatch& patch);
 
-/// Refuses a setting of a direction that its regimes set themselves: it would do nothing while they
-/// hold. The error says what to write instead; `way` is what stands before the keys there: "up.".
+/// Refuses a setting of a direction that its regimes set themselves, because it would have no
+/// effect in these regimes. The error says what to write instead. `way` is the prefix of the keys:
+/// "up.".
 [[nodiscard]] base::Result<void> ensure_own(const Patch& patch, const Regimes& regimes,
                                             std::string_view way);
 
@@ -45,12 +46,13 @@ using NamesOfRegimes = std::array<RegimeNames, 2>;
 /// True if any path has regimes.
 [[nodiscard]] bool has_regimes(const Profile& profile);
 
-/// Returns the regimes that a path has at the beginning, by its name; empty: no path has regimes.
+/// Returns a function that gives the regimes that a path has at the beginning, by its name; empty:
+/// no path has regimes.
 [[nodiscard]] std::function<NamesOfRegimes(const std::string& path)>
 regimes_of_paths(const Profile& profile);
 
-/// Refuses other regimes than those that a path has by now: fates count them, and statistics name
-/// them.
+/// Refuses regimes that differ from the current ones of a path: fates refer to regimes by number,
+/// and statistics by name.
 [[nodiscard]] base::Result<void> ensure_same_regimes(const Path& path, const Path& now);
 
 } // namespace hapnet::emulator

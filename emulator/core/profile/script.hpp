@@ -9,8 +9,8 @@
 
 namespace hapnet::emulator {
 
-/// A profile with its timeline, which never change: directors share it, so that to follow another
-/// one costs them the same whatever its length.
+/// An immutable profile with its timeline. Directors share it, so that they can follow another one
+/// at the same cost whatever its length.
 class Script {
 public:
     /// Ensures that the profile is valid. Takes time: some 10 us, and 1 us for each change.
@@ -19,8 +19,8 @@ public:
     [[nodiscard]] const Profile& profile() const { return profile_; }
     [[nodiscard]] const Timeline& timeline() const { return timeline_; }
 
-    /// True if both are the same text, seeds apart. By hashes: that two that differ pass for equal
-    /// happens once in 2^64 pairs.
+    /// True if both have the same text apart from the seed. The comparison is by hashes: two
+    /// different ones compare as equal once in 2^64 pairs.
     [[nodiscard]] bool says_the_same_as(const Script& other) const { return hash_ == other.hash_; }
 
 private:

@@ -61,7 +61,7 @@ constexpr std::array examples{
     LawExample{"delay", "trace", R"({ law = "trace", file = "delays.csv" })"},
 };
 
-/// The fields of all laws of a variant.
+/// Returns the fields of all laws of a variant.
 template <typename Law>
 std::vector<const base::FieldTable*> law_tables()
 {
@@ -75,7 +75,8 @@ struct PlaceOfKeys {
     std::string where;
 };
 
-/// The keys of a profile, by the tables that have them; those of laws are in their descriptions.
+/// Returns the keys of a profile, by the tables that have them. The keys of laws are in their
+/// descriptions.
 std::vector<PlaceOfKeys> places_of_keys()
 {
     return {{{setting_keys.begin(), setting_keys.end()},
@@ -90,7 +91,7 @@ std::vector<PlaceOfKeys> places_of_keys()
             {{"flow"}, "write flows as [[flow]], at the top level"}};
 }
 
-/// The first example that a word of the value calls for.
+/// Returns the first example that matches a word of the value.
 std::string_view example_for(std::string_view name, std::string_view value)
 {
     while (!value.empty()) {
@@ -103,7 +104,8 @@ std::string_view example_for(std::string_view name, std::string_view value)
     return "";
 }
 
-/// True if a value of several words is what tc-netem takes: "80ms 10ms distribution normal".
+/// True if a value of several words is in the notation of tc-netem: "80ms 10ms distribution
+/// normal".
 bool is_netem(std::string_view value)
 {
     constexpr std::array<std::string_view, 12> words{

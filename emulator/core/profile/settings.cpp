@@ -17,14 +17,15 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// The values of the key `regimes`: both directions change at once, or each by itself.
+/// The values of the key `regimes`: the regimes of both directions change together, or
+/// independently.
 constexpr std::string_view together = "together";
 constexpr std::string_view apart = "apart";
 
 /// A key of the rate; a trace has none.
 constexpr std::string_view limit_key = "limit";
 
-/// "none", the short form of the first parameter, or a table.
+/// Reads "none", the short form of the first parameter, or a table.
 template <typename Stage>
 Stage read_stage(const Node& node, Reading& reading)
 {
@@ -42,7 +43,7 @@ Stage read_stage(const Node& node, Reading& reading)
     return stage;
 }
 
-/// A token bucket may call its limit by the name that tc and traffic contracts use.
+/// Lets a token bucket call its limit "mean", as tc and traffic contracts do.
 Node with_limit_for_mean(Node node, Reading& reading)
 {
     auto& entries = std::get<Node::Table>(node.value);
@@ -58,7 +59,8 @@ Node with_limit_for_mean(Node node, Reading& reading)
     return node;
 }
 
-/// A rate, or a table: of a constant rate, or { law = "trace", file = ... } with the other keys.
+/// Reads a rate, or a table with a constant rate, or { law = "trace", file = ... } with the other
+/// keys.
 Rate read_rate(const Node& node, Reading& reading)
 {
     if (!std::holds_alternative<Node::Table>(node.value)) return read_stage<Rate>(node, reading);
@@ -88,7 +90,7 @@ Rate read_rate(const Node& node, Reading& reading)
     return rate;
 }
 
-/// The short form when it says all.
+/// Returns the short form if it is complete, else a table.
 template <typename Stage>
 std::string stage_text(const Stage& stage)
 {
@@ -124,7 +126,7 @@ void read_jitter(const Node& node, Patch& patch, Reading& reading)
     if (order) patch.order = order;
 }
 
-/// The values of a setting as TOML.
+/// Returns the values of a setting as TOML.
 template <typename Stage>
 std::string setting_text(const Stage& stage, std::string_view /*key*/)
 {
@@ -171,7 +173,7 @@ std::string setting_text(const Regimes& regimes, std::string_view /*key*/)
     return regimes_text(regimes);
 }
 
-/// A list is all of them; a table has conditions of those that are there.
+/// Reads the regimes. A list defines all of them; a table has conditions of existing ones.
 void read_regime_setting(const Node& node, DirectionSettings& settings, Reading& reading)
 {
     if (std::holds_alternative<Node::Table>(node.value)) {
@@ -213,7 +215,8 @@ struct Target {
     std::string name;     // one of setting_keys
 };
 
-/// Takes "regime.NAME" off the end of `front`, and returns the name; "": it does not end so.
+/// Removes "regime.NAME" from the end of `front`, and returns the name; "": `front` does not end
+/// like that.
 std::string_view take_regime(std::string_view& front)
 {
     constexpr std::string_view word = "regime.";
@@ -241,7 +244,7 @@ std::string with_underscores(std::string_view name)
     return text;
 }
 
-/// A key of more parts than the name of a setting and of a way.
+/// Returns the error for a key with more parts than the names of a direction and a setting.
 base::Result<Target> refusal_of_parts(std::string_view key, std::string_view front)
 {
     const auto dot = front.rfind('.');
@@ -297,9 +300,9 @@ bool changes_regimes(const DirectionSettings& settings)
     return settings.patch.regimes || settings.are_together || !settings.of_regimes.empty();
 }
 
-/// Calls use(setting) for the settings that are for all paths or for the path of this name. Where
-/// two contradict, the one that wins comes last. A flow does not get the settings of the rest, nor
-/// the rest those of a flow.
+/// Calls use(setting) for the settings for all paths and for the path of this name. If two
+/// contradict each other, the one that wins comes last. A flow does not get the settings of the
+/// other traffic, and the other traffic does not get those of a flow.
 template <typename Use>
 void in_turn(std::span<const Setting> settings, std::string_view path, const Use& use)
 {
@@ -315,8 +318,8 @@ void in_turn(std::span<const Setting> settings, std::string_view path, const Use
     }
 }
 
-/// Puts the regimes of the settings into `path`. `are_together`: both directions changed at once
-/// before.
+/// Sets the regimes of the settings in `path`. `are_together`: the regimes of both directions
+/// changed together before.
 base::Result<void> set_regimes(Path& path, std::span<const Setting> settings, std::string_view name,
                                bool are_together)
 {
@@ -444,7 +447,7 @@ base::Result<Setting> parse_setting(std::string_view key, std::string_view value
     const auto node = base::parse_option(text, false);
     if (!node) return refuse(node.error().message);
     read_setting(target->name, *node, setting.settings, reading);
-    // The complaint begins with the key, as with the place in a file.
+    // The error begins with the key, where an error in a file has the position.
     if (!reading.is_good()) return refuse(reading.complaint()->substr(key.size() + 2));
     if (const auto valid = validate_patch(setting.settings.patch, setting.path, names); !valid) {
         return base::fail(fmt::format("{}: {}", key, valid.error().message));

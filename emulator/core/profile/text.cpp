@@ -19,14 +19,14 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// A setting of a profile and where it stands.
+/// A setting of a profile and its position.
 struct Placed {
     Setting setting;
     Place place;
 };
 
-/// Reads the tables of settings of one table: both, all, up, down, and those of single paths. In a
-/// change those of flows stand among them.
+/// Reads the tables of settings in one table: both, all, up, down, and those of single paths. In a
+/// change, those of flows are among them.
 class SettingsReader {
 public:
     enum class In { profile, change };
@@ -80,7 +80,7 @@ private:
         return false;
     }
 
-    /// The tables of single paths, by the names that `way_of` reads.
+    /// Reads the tables of single paths, by the names that `way_of` parses.
     void read_paths(const Node& node, std::string_view example, const auto& way_of)
     {
         const auto* entries = std::get_if<Node::Table>(&node.value);
@@ -99,8 +99,9 @@ private:
         }
     }
 
-    /// Reads a table of a path. For a pair it has the settings of one way; else both, up and down,
-    /// or the settings of both. Settings of flows stand among them.
+    /// Reads a table of a path. For a pair of peers it has the settings of one direction. For other
+    /// paths it has the tables both, up and down, or the settings of both directions. Settings of
+    /// flows are among them.
     void read_path_table(const Way& way, const Node& node)
     {
         const auto* entries = std::get_if<Node::Table>(&node.value);
@@ -120,7 +121,7 @@ private:
         if (!std::get<Node::Table>(rest.value).empty()) add(way, rest);
     }
 
-    /// The tables of flows by their names, on one path or on all.
+    /// Reads the tables of flows by their names, on one path or on all paths.
     void read_flow_tables(const Way& way, const Node& node)
     {
         const auto* entries = std::get_if<Node::Table>(&node.value);
@@ -133,7 +134,7 @@ private:
         }
     }
 
-    /// Settings by the names of their ends, from one to the other.
+    /// Settings of directions, by the names of the sending and the receiving end.
     using SettingsOfWays = std::map<std::pair<std::string, std::string>, DirectionSettings>;
 
     void read_matrix(const Node& node)
@@ -158,7 +159,7 @@ private:
         }
     }
 
-    /// The numbers of peers, or the letters of commands.
+    /// Returns the numbers of peers, or the letters of commands.
     [[nodiscard]] std::vector<std::string> peers_of(const Node& node) const
     {
         constexpr std::uint64_t highest = 999;
@@ -187,7 +188,8 @@ private:
         return {};
     }
 
-    /// Row i, column j: what peer i sends to peer j. What stands on the diagonal does not count.
+    /// Reads a matrix. Row i, column j has the settings from peer i to peer j. The diagonal is
+    /// ignored.
     void read_rows(std::string_view key, const Node& node, const std::vector<std::string>& peers,
                    SettingsOfWays& settings) const
     {
@@ -300,7 +302,7 @@ PlacedChange read_change(const Node& node, const PathNames& names, Reading& read
     return placed;
 }
 
-/// Makes whole lists of what changes say of regimes, in their order.
+/// Converts the changes of regimes to complete lists, in the order of the changes.
 void resolve_regimes(std::vector<PlacedChange>& changes, const Profile& profile, Reading& reading)
 {
     std::map<std::string, Path> held; // conditions so far on the paths that are named
@@ -420,7 +422,8 @@ void print_section(std::string& out, const std::string& name, const SettingTexts
     if (!lines.empty()) out += fmt::format("\n[{}]\n{}", name, lines);
 }
 
-/// The steps that are left of a timeline lie anywhere: 18.482486886s, not 18482486886ns.
+/// Returns the time as text. The remaining steps of a timeline may be at any time: 18.482486886s,
+/// not 18482486886ns.
 std::string time_text(base::Duration time)
 {
     constexpr base::Duration second = std::chrono::seconds{1};
@@ -431,15 +434,15 @@ std::string time_text(base::Duration time)
     return base::quoted(text + "s");
 }
 
-/// A table, or the beginning of keys, and the settings in it.
+/// A table, or the beginning of keys, with its settings.
 struct Section {
     std::string name;
     SettingTexts texts;
-    SettingTexts but; // settings that stand elsewhere in the text
+    SettingTexts but; // settings that are elsewhere in the text
 };
 
-/// Returns the sections of both directions, first of their common settings. `prefix` is that of the
-/// path's names.
+/// Returns the sections of both directions, beginning with that of their common settings. `prefix`
+/// is the prefix of the path's names.
 std::vector<Section> sections_of(const std::string& prefix, const Patch& up, const Patch& down)
 {
     const SettingTexts of_up = setting_texts(up);

@@ -14,15 +14,15 @@
 
 namespace hapnet::emulator {
 
-/// The conditions over time, by a profile. A ramp goes in a straight line from the value at its
-/// beginning. A later change of the same setting takes over from the value that the ramp has by
-/// then. Changes at equal times hold in their order.
+/// The conditions over time, according to a profile. A ramp is a straight line from the value at
+/// its beginning. A later change of the same setting continues from the value that the ramp has at
+/// that time. Changes at equal times apply in their order.
 class Timeline {
 public:
     /// The time between two changes of the conditions while a ramp lasts.
     static constexpr base::Duration ramp_step = std::chrono::milliseconds{1};
 
-    /// The most ramps that may follow each other without a pause, or go on at once.
+    /// The greatest number of ramps that may follow each other without a pause, or overlap.
     static constexpr std::size_t ramps_max = 64;
 
     /// A change of a profile that cannot be made.
@@ -40,22 +40,23 @@ public:
     /// Returns the conditions at a time since the run began, which is not negative.
     [[nodiscard]] Path at(base::Duration since_start) const;
 
-    /// The first time after `after` at which something else may hold; nullopt: never again.
+    /// Returns the first time after `after` at which the conditions may change; nullopt: they never
+    /// change again.
     [[nodiscard]] std::optional<base::Duration> next_change(base::Duration after) const;
 
 private:
     struct Step {
         Change change;
         Path before;           // conditions at its time, just before it
-        std::size_t first = 0; // the earliest step whose ramp may still go on then
+        std::size_t first = 0; // the earliest step whose ramp may still be in progress then
     };
 
     explicit Timeline(const Path& start) : start_{start} {}
 
-    /// Adds the next change, or says why it cannot be made.
+    /// Adds the next change, or returns why it cannot be made.
     [[nodiscard]] base::Result<void> add(const Change& change);
     [[nodiscard]] Path at(base::Duration since_start, std::size_t steps) const;
-    /// The number of steps with a time <= since_start.
+    /// Returns the number of steps with a time <= since_start.
     [[nodiscard]] std::size_t steps_until(base::Duration since_start) const;
 
     Path start_;

@@ -12,14 +12,17 @@
 
 namespace hapnet::emulator {
 
-/// Controlled delay (RFC 8289, section 5.5): drops at the head of the queue once datagrams have
-/// waited longer than the target for an interval, and then ever more often until they do not.
-/// Datagrams that can be marked are marked instead, and then sent, as in Linux (codel_impl.h).
+/// Controlled delay (RFC 8289, section 5.5). Once datagrams have waited longer than the target for
+/// an interval, it drops them at the head of the queue, and then ever more often until the waits
+/// are short again. Datagrams that can be marked are marked instead, and then sent, as in Linux
+/// (codel_impl.h).
 ///
-/// Each time the line is free, show it the datagram at the head, and as long as it drops, the next.
+/// Each time the line is free, show it the datagram at the head. While it drops them, show it the
+/// next.
 class Codel {
 public:
-    /// Less in the queue is no reason to drop: one datagram of the usual largest size.
+    /// While at most this number of bytes wait behind the head, nothing is dropped: one datagram of
+    /// the usual largest size.
     static constexpr std::size_t bytes_min = 1514;
 
     Codel(base::Duration target, base::Duration interval) : target_{target}, interval_{interval} {}
@@ -47,7 +50,7 @@ public:
         return QueueVerdict::mark;
     }
 
-    /// Call it when the last datagram was dropped and the queue is empty.
+    /// Call this when the last datagram was dropped and the queue is empty.
     void on_empty(base::TimePoint now)
     {
         first_above_.reset();
@@ -86,7 +89,8 @@ private:
         return act(is_markable, now);
     }
 
-    /// The time of the next drop may have come. After a mark none follows at this moment.
+    /// Decides whether the next drop is due. After a mark, no other drop or mark follows at this
+    /// moment.
     [[nodiscard]] QueueVerdict act(bool is_markable, base::TimePoint now)
     {
         if (now < drop_next_) return QueueVerdict::pass;
@@ -96,7 +100,8 @@ private:
         return QueueVerdict::mark;
     }
 
-    /// Begins to drop. If it dropped a short time ago, it continues with the last drop rate.
+    /// Begins a series of drops. If the last series ended a short time ago, it continues with its
+    /// drop rate.
     void begin(base::TimePoint now)
     {
         begins_ = false;
@@ -115,7 +120,8 @@ private:
 
     base::Duration target_;
     base::Duration interval_;
-    std::optional<base::TimePoint> first_above_; // when waits will have been long for an interval
+    // Time at which waits will have been long for a whole interval
+    std::optional<base::TimePoint> first_above_;
     base::TimePoint drop_next_{};
     std::uint32_t count_ = 0; // drops and marks that set the drop rate (`count` in RFC 8289)
     std::uint32_t last_count_ = 0;

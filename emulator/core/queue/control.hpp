@@ -27,8 +27,8 @@ enum class QueueVerdict : std::uint8_t {
     drop,
 };
 
-/// The queue before the bottleneck of a rate: its law, and bounds besides that in bytes. Without a
-/// rate it does nothing.
+/// The queue before the bottleneck of a rate: its law, and its bounds in addition to the one in
+/// bytes. Without a rate it has no effect.
 struct QueueControl {
     static constexpr std::uint32_t flows_most = 65'536;
     static constexpr std::uint32_t quantum_most = 1U << 30U;
@@ -38,7 +38,7 @@ struct QueueControl {
     std::optional<base::Duration> interval{}; // for codel and fq-codel; nullopt: 100 ms
     std::uint32_t packets_max = 0;            // limit of waiting datagrams; 0: no such bound
     base::Duration time_max{}; // a datagram that would wait longer is dropped; 0: no such bound
-    /// A datagram that is ECN-capable is marked where the law would drop it; nullopt: it is.
+    /// True if an ECN-capable datagram is marked where the law would drop it; nullopt: true.
     std::optional<bool> is_marking{};
     /// ECN-capable datagrams that waited longer are marked.
     std::optional<base::Duration> mark_above{};
@@ -90,9 +90,9 @@ constexpr auto fields_of(base::Tag<QueueControl>)
 
 [[nodiscard]] base::Result<void> validate(const QueueControl& queue);
 
-/// Returns the verdict of a law. Where it lets an ECN-capable datagram pass that has waited longer
-/// than `mark_above`, it is a mark (RFC 9331 and Linux's ce_threshold; the same for ECT(0) and
-/// ECT(1)).
+/// Returns the verdict of a law, changed to a mark if the law lets an ECN-capable datagram pass
+/// that has waited longer than `mark_above` (RFC 9331 and Linux's ce_threshold; equal for ECT(0)
+/// and ECT(1)).
 [[nodiscard]] inline QueueVerdict with_threshold(QueueVerdict verdict, const QueueControl& control,
                                                  base::Duration waited, base::IpMarks marks)
 {

@@ -87,8 +87,8 @@ Queued FairQueue::take_first(Flow& flow)
     return node.entry;
 }
 
-/// An empty flow leaves; a new one passes once through the old ones, so that it cannot come back
-/// as a new one and keep them waiting (section 4.2).
+/// Handles an empty flow. An old one is removed. A new one moves once to the old ones, so that it
+/// cannot come back as a new one and keep them waiting (section 4.2).
 void FairQueue::visit_empty(Turns& turns, base::TimePoint now)
 {
     const std::uint32_t number = turns.first;
@@ -120,8 +120,8 @@ Queued FairQueue::next(base::TimePoint now)
     for (;;) {
         Turns& turns = new_.first != none ? new_ : old_;
         if (dropping_from_) {
-            // Its CoDel goes on where it was, whichever flow has become first in turn at this
-            // moment.
+            // The CoDel of the flow whose head was just dropped continues, whichever flow is first
+            // in turn at this moment.
             Flow& flow = flows_[*dropping_from_];
             if (flow.first == none) {
                 flow.codel.on_empty(now);

@@ -17,27 +17,27 @@
 namespace hapnet::emulator {
 
 /// The queues of FQ-CoDel (RFC 8290, section 4): one for each flow, each with a CoDel of its own.
-/// They take turns by deficit round robin; a flow that has just begun comes before those that have
-/// been sending. Each time the line is free, take next(), and as long as that is dropped, the next.
+/// They take turns by deficit round robin; a new flow comes before those that have been sending.
+/// Each time the line is free, call next(), and again as long as the returned datagram is dropped.
 class FairQueue {
 public:
     explicit FairQueue(const QueueControl& control);
 
-    /// The number of flows stays as it is.
+    /// Changes the settings. The number of flows must stay the same.
     void change(const QueueControl& control);
 
-    /// Flows whose hashes agree by chance share a queue.
+    /// Adds a datagram. Flows whose hashes agree by chance share a queue.
     void push(const Queued& entry, std::uint32_t flow_hash);
 
-    /// Takes out the datagram that is sent at `now`, or that CoDel drops (`dropped`). Ensures that
-    /// there is one.
+    /// Takes out the datagram that is sent at `now`, or that CoDel drops (`dropped` is then set).
+    /// Ensures that there is one.
     [[nodiscard]] Queued next(base::TimePoint now);
 
     /// Tells the queue that the line is free and no datagram waits.
     void on_empty(base::TimePoint now);
 
-    /// Takes out the first half of the longest queue, at most 64, to be dropped (section 4.1).
-    /// Ensures that it is not empty.
+    /// Takes out the first half of the longest queue, at most 64 datagrams, to be dropped (section
+    /// 4.1). Ensures that it is not empty.
     [[nodiscard]] std::vector<Queued> take_from_longest();
 
     /// Takes out all datagrams, in order of arrival.
@@ -65,7 +65,7 @@ private:
         std::uint32_t next_in_turn = none; // index in flows_
         bool has_turns = false;            // the flow is in new_ or old_
     };
-    /// Flows in turn.
+    /// A list of flows that take turns.
     struct Turns {
         std::uint32_t first = none;
         std::uint32_t last = none;

@@ -16,18 +16,21 @@
 
 namespace hapnet::emulator {
 
-/// The law of a queue at work. Draws one number for each datagram that arrives, by its number.
+/// The running law of a queue. Draws one number for each datagram that arrives, by the datagram's
+/// number.
 class QueueManager {
 public:
     QueueManager() = default;
     QueueManager(const QueueControl& control, const base::RandomStream& stream);
 
-    /// Changes the settings. The same law goes on; another one starts from its beginning.
+    /// Changes the settings. The law continues if it stays the same; another one starts from its
+    /// beginning.
     void change(const QueueControl& control);
 
     [[nodiscard]] const QueueControl& control() const { return control_; }
 
-    /// True if a law is set. It may drop datagrams for which the queue has room.
+    /// True if any setting differs from the default. A law may then drop datagrams for which the
+    /// queue has room.
     [[nodiscard]] bool is_on() const { return control_ != QueueControl{}; }
 
     /// Judges a datagram that arrives and for which there is room.
@@ -42,7 +45,8 @@ public:
         return is_marked ? QueueVerdict::mark : QueueVerdict::drop;
     }
 
-    /// Judges the datagram at the head of the queue when the line is free: sent, marked or dropped.
+    /// Judges the datagram at the head of the queue when the line is free. The verdict is to send,
+    /// mark or drop it.
     [[nodiscard]] QueueVerdict judge_head(Codel::Head head, base::IpMarks marks,
                                           base::TimePoint now)
     {

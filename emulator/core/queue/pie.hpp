@@ -19,13 +19,13 @@ public:
     static constexpr base::Duration update_every = std::chrono::milliseconds{15};
     static constexpr base::Duration burst_max = std::chrono::milliseconds{150};
     static constexpr std::size_t bytes_min = 2048; // two datagrams of the mean size
-    /// A sender that does not listen to marks is not to be marked for ever: above this probability
-    /// all are dropped (section 5.1).
+    /// The greatest drop probability at which datagrams are marked. Above it all are dropped
+    /// instead, because the sender apparently does not respond to marks (section 5.1).
     static constexpr double marked_up_to = 0.1;
 
     explicit Pie(base::Duration target) : target_{base::to_seconds(target)} {}
 
-    /// True if a datagram that arrives is dropped. `uniform`: its draw, from 0 to 1.
+    /// Returns true if a datagram that arrives is dropped. `uniform`: its draw, from 0 to 1.
     [[nodiscard]] bool drops(base::TimePoint now, std::size_t bytes_waiting, double uniform)
     {
         advance(now);
@@ -38,7 +38,7 @@ public:
         return uniform < probability_;
     }
 
-    /// A datagram leaves the queue after this time.
+    /// Notes that a datagram leaves the queue after it has waited this long.
     void on_departure(base::TimePoint now, base::Duration waited)
     {
         advance(now);
@@ -54,8 +54,8 @@ private:
     void advance(base::TimePoint now)
     {
         if (!next_update_) next_update_ = now + update_every;
-        // The number of steps after which nothing is left of the probability in a long rest. Each
-        // step takes 2 % of it, and the controller's change besides.
+        // The number of steps after which nothing is left of the probability in a long idle time.
+        // Each step reduces it by 2 % and by the change of the controller.
         constexpr int steps_max = 10'000;
         for (int step = 0; *next_update_ <= now; ++step) {
             if (step == steps_max) {
@@ -81,7 +81,7 @@ private:
         burst_ = std::max(burst_ - update_every, base::Duration{0});
     }
 
-    /// The divisor that makes a small probability change more slowly.
+    /// Returns the divisor that makes a small probability change more slowly.
     [[nodiscard]] double scale() const
     {
         struct Scale {

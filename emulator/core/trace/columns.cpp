@@ -25,7 +25,7 @@ constexpr std::array<ColumnUnit, 10> rate_units{{{"bps", 1.0},
                                                  {"kbit/s", 1e3},
                                                  {"Mbit/s", 1e6},
                                                  {"Gbit/s", 1e9}}};
-constexpr double most_time = 1e19; // such as since an epoch: the first time is subtracted
+constexpr double most_time = 1e19; // times may count from an epoch, as the first one is subtracted
 constexpr ColumnKind time_kind{.what = "time",
                                .units = time_units,
                                .most = most_time,

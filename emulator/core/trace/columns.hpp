@@ -16,17 +16,17 @@ namespace hapnet::emulator {
 enum class Measure : std::uint8_t { delay, loss, rate, lost };
 [[nodiscard]] std::string_view name_of(Measure measure);
 
-/// "time=stamp:s, delay=rtt:ms": see base::parse_columns(). A column may hold time, delay, loss,
-/// lost or rate.
+/// Parses "time=stamp:s, delay=rtt:ms"; see base::parse_columns(). A column may hold time, delay,
+/// loss, lost or rate.
 [[nodiscard]] base::Result<base::Columns> parse_columns(std::string_view text);
 
-/// The layout of the table that begins with the next line: of the measure and of times, if there
-/// are any. Neither has a column where each line is one delay with its unit. The error says what is
-/// missing and how to name it.
+/// Returns the layout of the table that begins with the next line: the column of the measure and
+/// that of the times, if there is one. A table with one delay and its unit on each line has
+/// neither. The error says what is missing and how to name it.
 [[nodiscard]] base::Result<base::TableLayout>
 find_layout(const base::LineReader& lines, Measure measure, const base::Columns& columns);
 
-/// The columns of the values and of the times in such a layout.
+/// Returns the column of the values, or of the times, in such a layout.
 [[nodiscard]] inline const std::optional<base::NumberColumn>&
 value_of(const base::TableLayout& layout)
 {

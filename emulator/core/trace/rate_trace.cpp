@@ -28,7 +28,7 @@ Work product(std::uint64_t rate, base::Duration time)
     return rate * nanoseconds;
 }
 
-/// Returns the work of a number of opportunities, at most what a line ever needs.
+/// Returns the work of a number of opportunities, limited to the most that a line ever needs.
 Work work_of(std::uint64_t opportunities)
 {
     return std::min(opportunities, most_work / work_per_opportunity) * work_per_opportunity;
@@ -77,7 +77,7 @@ Opportunities::Opportunities(std::vector<Moment> moments) : moments_{std::move(m
     moments_.shrink_to_fit();
 }
 
-/// The number of opportunities up to and including a time.
+/// Returns the number of opportunities up to and including a time.
 std::uint64_t Opportunities::count(base::Duration until, bool repeats) const
 {
     const auto rounds = repeats ? static_cast<std::uint64_t>(until / period()) : 0;
@@ -90,7 +90,7 @@ std::optional<Completion> Opportunities::finish(base::Duration from, Work work, 
 {
     if (work == 0) return Completion{from, 0};
     const auto before = count(from, repeats);
-    // The number of the last opportunity that the work takes.
+    // The number of the last opportunity that the work uses.
     const auto last = before + (work - 1) / work_per_opportunity;
     const auto round = static_cast<base::Duration::rep>(last / each_round());
     if (round > 0 && !repeats) return std::nullopt;
@@ -130,7 +130,7 @@ RateSteps::Segment RateSteps::segment(base::Duration time, bool repeats) const
 
 std::optional<Completion> RateSteps::finish(base::Duration from, Work work, bool repeats) const
 {
-    // Whole periods first: a slow line may need many.
+    // Skips whole periods first, because a slow line may need many.
     if (repeats && per_period_ > 0 && work > per_period_) {
         const auto rounds = (work - 1) / per_period_;
         constexpr auto never = static_cast<std::uint64_t>(longest_delay.count());

@@ -19,12 +19,12 @@
 
 namespace hapnet::emulator {
 
-/// The amount that a line sends, as bits times 10^9: bits a second times nanoseconds.
+/// The amount that a line sends, in bits times 10^9: bits a second times nanoseconds.
 using Work = std::uint64_t;
 inline constexpr Work work_per_byte = 8 * 1'000'000'000ULL;
 
-/// The time when a line has finished some work, and the amount that it could have sent besides by
-/// then: a part of a nanosecond, or of an opportunity.
+/// The time when a line has finished some work, and the amount that it could have sent in addition
+/// by that time: a part of a nanosecond, or of an opportunity.
 struct Completion {
     base::Duration at{};
     Work spare = 0;
@@ -32,11 +32,11 @@ struct Completion {
     friend bool operator==(const Completion&, const Completion&) = default;
 };
 
-/// Moments at which a fixed number of bytes may leave: the rule of Mahimahi (Netravali et al.,
-/// USENIX ATC 2015, src/frontend/link_queue.cc). An opportunity is lost if no datagram waits. One
-/// that a datagram does not fill goes on to the next datagram that waits. A larger datagram takes
-/// several opportunities. A datagram that arrives at the moment of an opportunity is too late for
-/// it. The trace begins again at its last opportunity.
+/// Moments at which a fixed number of bytes may leave, by the rule of Mahimahi (Netravali et al.,
+/// USENIX ATC 2015, src/frontend/link_queue.cc). An opportunity is lost if no datagram waits. If a
+/// datagram does not fill an opportunity, the rest of it is for the next datagram that waits. A
+/// larger datagram takes several opportunities. A datagram that arrives at the moment of an
+/// opportunity is too late for it. The trace begins again at its last opportunity.
 class Opportunities {
 public:
     static constexpr std::size_t bytes_each = 1504;
@@ -49,8 +49,8 @@ public:
         friend bool operator==(const Moment&, const Moment&) = default;
     };
 
-    /// `moments` has at least one. Both numbers ascend: times from 0 on, with the last above 0. It
-    /// takes 16 B for each moment, however many opportunities there are.
+    /// `moments` has at least one. Both numbers ascend: times from 0 on, and the last time is above
+    /// 0. It takes 16 B for each moment, whatever the number of opportunities.
     explicit Opportunities(std::vector<Moment> moments);
 
     [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
@@ -69,7 +69,7 @@ private:
     std::vector<Moment> moments_;
 };
 
-/// Rates that hold from their time until that of the next one.
+/// Rates over time: each is in effect from its time until the time of the next one.
 class RateSteps {
 public:
     /// `times` ascend from 0, and there is one for each rate. At least one rate is above 0.
@@ -84,7 +84,7 @@ public:
     friend bool operator==(const RateSteps&, const RateSteps&) = default;
 
 private:
-    /// The rate at a time, and how long it still holds; nullopt: for ever.
+    /// The rate at a time, and its remaining duration; nullopt: for ever.
     struct Segment {
         std::uint64_t rate = 0;
         std::optional<base::Duration> left;
@@ -101,8 +101,8 @@ class RateTrace {
 public:
     explicit RateTrace(std::variant<Opportunities, RateSteps> trace);
 
-    /// The time when the line has finished work that it begins at `from`, both since the trace
-    /// began; nullopt: never, or not within 10^6 s.
+    /// Returns the time when the line has finished work that it begins at `from`, both counted from
+    /// the beginning of the trace; nullopt: never, or not within 10^6 s.
     [[nodiscard]] std::optional<Completion> finish(base::Duration from, Work work,
                                                    bool repeats) const;
 
@@ -110,10 +110,10 @@ public:
     /// 2^63.
     [[nodiscard]] Work sent(base::Duration from, base::Duration to, bool repeats) const;
 
-    /// The mean rate in bits a second.
+    /// Returns the mean rate in bits a second.
     [[nodiscard]] double mean_rate() const;
 
-    /// The time after which the trace begins again; 0: it has one rate for ever.
+    /// Returns the time after which the trace begins again; 0: it has one rate for ever.
     [[nodiscard]] base::Duration period() const;
 
     friend bool operator==(const RateTrace&, const RateTrace&) = default;
@@ -122,12 +122,13 @@ private:
     std::variant<Opportunities, RateSteps> trace_;
 };
 
-/// Reads Mahimahi's format, a line for each opportunity with its time in whole milliseconds, or a
-/// table of times, or with slots, and of rates (see read_trace_rows). The error names the line.
+/// Reads Mahimahi's format, with a line for each opportunity that has its time in whole
+/// milliseconds, or a table of times, or with slots, and of rates (see read_trace_rows). The error
+/// names the line.
 [[nodiscard]] base::Result<RateTrace> parse_rate_trace(std::string_view text,
                                                        const TableFormat& format = {});
 
-/// The rate of a bottleneck, read off a trace.
+/// The rate of a bottleneck, read from a trace.
 struct RateTraceLaw {
     std::string file;
     std::shared_ptr<const RateTrace> trace; // never null
@@ -138,7 +139,7 @@ struct RateTraceLaw {
     [[nodiscard]] base::Result<void> load(const base::Reading& reading);
     [[nodiscard]] base::Result<void> validate() const;
 
-    /// Compares the contents: the same file read twice is the same law.
+    /// Compares the contents: a file that was read twice gives equal laws.
     friend bool operator==(const RateTraceLaw& a, const RateTraceLaw& b);
 };
 

@@ -18,7 +18,7 @@ namespace hapnet::emulator {
 
 namespace {
 
-/// Adds one row after the other.
+/// Collects rows one after the other.
 class Rows {
 public:
     Rows(Measure measure, base::TableLayout layout) : measure_{measure}, layout_{std::move(layout)}
@@ -54,7 +54,7 @@ public:
         return true;
     }
 
-    /// A delay with its unit.
+    /// Adds a delay with its unit.
     [[nodiscard]] base::Result<void> add_delay(std::string_view line)
     {
         const auto delay = base::parse_duration(line);
@@ -73,7 +73,7 @@ public:
         return tl::unexpected{delay.error()};
     }
 
-    /// Returns the rows that were read; nullopt: not one value.
+    /// Returns the rows; nullopt: they have no value.
     [[nodiscard]] std::optional<TraceRows> finished()
     {
         const auto first = std::ranges::find(rows_.lost, false);
@@ -126,7 +126,7 @@ private:
     base::NumberReader numbers_;
 };
 
-/// With a slot, a first line that is one number is a delay in ms.
+/// Returns the columns. With a slot, a first line that is one number is a delay in ms.
 base::Columns columns_of(const TableFormat& format, Measure measure, const base::LineReader& lines)
 {
     base::Columns columns = format.columns;

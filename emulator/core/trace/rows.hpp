@@ -15,7 +15,7 @@ namespace hapnet::emulator {
 inline constexpr std::size_t trace_rows_max = 10'000'000;
 inline constexpr std::string_view too_many_values = "more than 10000000 values: cut the file";
 
-/// The refusal of a table whose values need times.
+/// The error for a table whose values need times.
 inline constexpr std::string_view without_times =
     "line 1: no column is named time_ns, time_us, time_ms or time_s: name it, such as "
     "columns \"time=stamp:s\", or say how long each value lasts, such as slot = \"10ms\"";
@@ -37,21 +37,22 @@ struct TableFormat {
     base::Duration slot{}; // each value is a slot of this length later than the one before; 0: none
 };
 
-/// The format that `columns` (see parse_columns) and a slot say. The error begins with the key.
+/// Returns the format that `columns` (see parse_columns) and a slot describe. The error begins with
+/// the key.
 [[nodiscard]] base::Result<TableFormat> parse_format(std::string_view columns,
                                                      base::Duration slot = {});
 
 /// Reads a table whose header names a column of the measure: delay_ns (_us, _ms, _s), loss (a share
-/// from 0 to 1) or loss_percent, rate_bps (_kbps, _Mbps, _Gbps), or lost (0 or 1); and perhaps one
-/// of times: time_ns, ..., time_s or t_ns, ..., t_s. Commas, semicolons, tabs or blanks separate
-/// the cells, which may stand in quotes. Numbers have a decimal point, or a decimal comma where
-/// commas do not separate; all of them the same. The columns of the format may name others, those
-/// of a table without a header by their numbers. Other columns are passed over.
-/// A delay that is empty, "nan", "-", "*", "lost" or "timeout" is that of a lost datagram: it has
-/// the delay of the one before; at the beginning, of the one after. In a table of one column an
-/// empty line between two others is such a delay. Without a header, one delay
-/// with its unit per line; with a slot, a number there is milliseconds. Memory: at most 17 B a row.
-/// Errors name the line.
+/// from 0 to 1) or loss_percent, rate_bps (_kbps, _Mbps, _Gbps), or lost (0 or 1). It may also name
+/// a column of times: time_ns, ..., time_s or t_ns, ..., t_s. Commas, semicolons, tabs or blanks
+/// separate the cells, which may be in quotes. Numbers have a decimal point, or a decimal comma
+/// where commas do not separate cells; all numbers use one of the two. The columns of the format
+/// may have other names, and in a table without a header they are numbers. Other columns are
+/// ignored. A delay that is empty, "nan", "-", "*", "lost" or "timeout" belongs to a lost datagram.
+/// Its value is the delay of the previous datagram, or at the beginning that of the next one. In a
+/// table of one column an empty line between two others is such a delay. Without a header, there is
+/// one delay with its unit per line; with a slot, a number there is in milliseconds. Memory: at
+/// most 17 B a row. Errors name the line.
 [[nodiscard]] base::Result<TraceRows> read_trace_rows(std::string_view text, Measure measure,
                                                       const TableFormat& format = {});
 

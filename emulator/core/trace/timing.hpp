@@ -14,7 +14,7 @@
 
 namespace hapnet::emulator {
 
-/// The moment at which time 0 of a trace lies.
+/// The moment of a run at which a trace has its time 0.
 enum class TraceStart : std::uint8_t {
     run,   // time 0 is the start of the run
     first, // time 0 is the first arrival in the direction
@@ -47,7 +47,7 @@ constexpr auto fields_of(base::Tag<TraceTiming>)
                     "how long each value of a file without times lasts; 0: the file has times"));
 }
 
-/// Says where in a trace a moment of the run lies.
+/// Maps a moment of the run to a moment of the trace.
 class TraceClock {
 public:
     explicit TraceClock(const TraceTiming& timing) : timing_{timing} {}
@@ -67,15 +67,15 @@ private:
     std::optional<base::Duration> zero_; // nullopt: no datagram has come yet
 };
 
-/// The times of the values of a trace. The last value lasts as long as the one before it; a single
-/// one lasts for ever.
+/// The times of the values of a trace. The last value lasts as long as the one before it. A single
+/// value lasts for ever.
 class TimeAxis {
 public:
-    /// Ascending from 0; at least one.
+    /// Takes times that ascend from 0; at least one.
     explicit TimeAxis(std::vector<base::Duration> times);
 
-    /// Between which values a moment lies, and which share of the way to the next one has passed.
-    /// From a value that lasts for ever there is no way.
+    /// The position of a moment: the index of the value at or before it, and the share of the time
+    /// to the next value that has passed. The share of a value that lasts for ever is 0.
     struct Place {
         std::size_t index = 0;
         std::size_t next = 0;
@@ -85,7 +85,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return times_.size(); }
 
-    /// The time after which the trace begins again; 0: it has only one value.
+    /// Returns the time after which the trace begins again; 0: it has only one value.
     [[nodiscard]] base::Duration period() const { return period_; }
     [[nodiscard]] base::Duration begin(std::size_t index) const { return times_[index]; }
     [[nodiscard]] base::Duration end(std::size_t index) const
@@ -93,7 +93,7 @@ public:
         return index + 1 < times_.size() ? times_[index + 1] : period_;
     }
 
-    /// The share of a period that a value lasts.
+    /// Returns the share of a period that a value lasts.
     [[nodiscard]] double share(std::size_t index) const;
 
     friend bool operator==(const TimeAxis&, const TimeAxis&) = default;

@@ -67,7 +67,7 @@ bool is_readable(std::uint32_t link)
     return std::ranges::find(readable, link) != readable.end();
 }
 
-/// The IP packet of a frame; empty when there is none.
+/// Returns the IP packet of a frame; empty when there is none.
 Bytes ip_packet_of(std::uint32_t link, Bytes frame)
 {
     const auto behind = [&](std::size_t header) {
@@ -86,7 +86,7 @@ Bytes ip_packet_of(std::uint32_t link, Bytes frame)
     }
 }
 
-/// The payload behind the headers of IP: its captured bytes, and its length on the wire.
+/// The payload after the headers of IP: its captured bytes, and its length on the wire.
 struct IpPayload {
     std::uint8_t protocol = 0;
     Bytes captured{};
@@ -107,7 +107,7 @@ std::optional<IpPayload> read_ipv4(Bytes packet)
     if (packet.size() < 20 || (big(packet, 6, 2) & offset_and_more) != 0) return std::nullopt;
     const std::size_t header = std::size_t{4} * (big(packet, 0, 1) & 0xfU);
     std::size_t total = big(packet, 2, 2);
-    if (total == 0) total = packet.size(); // a segment that the interface is to divide
+    if (total == 0) total = packet.size(); // a segment that the interface will divide
     if (header < 20 || packet.size() < header || total < header) return std::nullopt;
     const auto captured = packet.first(std::min(packet.size(), total)).subspan(header);
     return IpPayload{.protocol = std::to_integer<std::uint8_t>(packet[9]),
@@ -127,7 +127,7 @@ std::optional<IpPayload> read_ipv6(Bytes packet)
                       .captured = packet.subspan(header, std::min(bytes, packet.size() - header)),
                       .bytes = bytes,
                       .flow = {{}, end_of(packet.subspan(8, 16)), end_of(packet.subspan(24, 16))}};
-    const auto is_extension = [&] { // hop-by-hop, routing, for the destination
+    const auto is_extension = [&] { // hop-by-hop, routing, or destination options
         return payload.protocol == 0 || payload.protocol == 43 || payload.protocol == 60;
     };
     for (int i = 0; i < extensions_max && is_extension(); ++i) {
@@ -151,7 +151,7 @@ std::optional<IpPayload> read_ip(Bytes packet)
     }
 }
 
-/// The packet without its `header`.
+/// Returns the packet without its `header`.
 std::optional<SeenPacket> behind(const IpPayload& ip, PacketProtocol protocol, std::size_t header)
 {
     if (ip.captured.size() < header) return std::nullopt;
@@ -224,10 +224,10 @@ std::optional<base::Duration> time_of(const Interface& interface, std::uint64_t 
            base::Duration{static_cast<base::Duration::rep>(rest * 1'000'000'000U / each)};
 }
 
-/// Takes packets in the order of a file.
+/// Collects packets in the order of a file.
 class Collector {
 public:
-    /// `which`: the interface's number in all of the file.
+    /// `which`: the number of the interface in the whole file.
     [[nodiscard]] base::Result<void> add(const Interface& interface, std::uint32_t which,
                                          std::uint64_t steps, Bytes frame)
     {
@@ -325,7 +325,7 @@ base::Result<Capture> read_pcap(Bytes bytes)
     return collector.finished();
 }
 
-/// The blocks of a pcapng file, one after the other.
+/// Reads the blocks of a pcapng file one after the other.
 class PcapngReader {
 public:
     explicit PcapngReader(Bytes bytes) : left_{bytes} {}
@@ -407,7 +407,7 @@ private:
         return {};
     }
 
-    /// if_tsresol: a power of ten, or with the highest bit set of two.
+    /// Reads if_tsresol: a power of ten, or of two if the highest bit is set.
     [[nodiscard]] static bool take_resolution(Interface& interface, std::uint32_t code)
     {
         constexpr std::uint32_t binary = 0x80;

@@ -21,8 +21,8 @@ using Packets = std::vector<const SeenPacket*>;
 constexpr std::size_t matched_min = 2;
 constexpr auto everything = std::numeric_limits<std::size_t>::max();
 
-/// A hash of 64 bits (FNV-1a): among a million payloads two have the same with a probability of
-/// 3 in 10^8.
+/// A hash of 64 bits (FNV-1a). Among a million payloads, two have equal hashes with a probability
+/// of 3 in 10^8.
 class PayloadHash {
 public:
     void add(std::span<const std::byte> bytes)
@@ -41,7 +41,7 @@ private:
     std::uint64_t hash_ = 0xcbf2'9ce4'8422'2325U;
 };
 
-/// The means by which datagrams are recognised.
+/// The criteria by which datagrams are identified.
 struct Identity {
     std::size_t payload_bytes = everything; // bytes compared: the fewest captured of any packet
     bool is_of_exchange = false;            // a question and its answer count as equal
@@ -64,7 +64,7 @@ struct Identity {
     }
 };
 
-/// The bytes of payload that were captured of every packet.
+/// Returns the least number of payload bytes that were captured of any packet.
 std::size_t least_captured(const Packets& packets)
 {
     std::size_t least = everything;
@@ -81,7 +81,7 @@ struct Matched {
     std::vector<base::Duration> differences{}; // differences for the packets that arrived
     std::size_t repeated = 0;                  // packets sent that share their payload with others
     std::size_t copies = 0;                    // packets that arrived again
-    bool is_uneven = false;                    // the time from one to the next varies
+    bool is_uneven = false;                    // the time between packets varies
 };
 
 bool is_uneven(const std::vector<base::Duration>& sent)
@@ -96,7 +96,7 @@ bool is_uneven(const std::vector<base::Duration>& sent)
     return squares / n > 0.25 * mean * mean; // true if the deviation is more than half of the mean
 }
 
-/// The packets that are the only ones with their identity, and how many others there are.
+/// Returns the packets with a unique identity. `others` is set to the number of the other packets.
 std::vector<std::pair<std::uint64_t, const SeenPacket*>>
 only_ones(const Packets& packets, const Identity& identity, std::size_t& others)
 {
@@ -119,8 +119,8 @@ struct Arrival {
     std::size_t count = 0;
 };
 
-/// Number of packets that arrived after a packet that was sent later (RFC 4737, 3.3). `arrivals`:
-/// their times of arrival, in the order of sending.
+/// Returns the number of packets that arrived after a packet that was sent later (RFC 4737, 3.3).
+/// `arrivals`: the times of arrival, in the order of sending.
 std::uint64_t reordered_of(const std::vector<base::Duration>& arrivals)
 {
     std::uint64_t reordered = 0;
@@ -213,7 +213,7 @@ void remark_on(const Matched& matched, const std::string& way, std::vector<std::
     }
 }
 
-/// A flow as it is called at the first of two ends.
+/// A flow, with the addresses seen at the first of two ends.
 struct Conversation {
     PacketFlow flow{};
     std::size_t seen_by_both = 0;
@@ -232,8 +232,8 @@ public:
         }
     }
 
-    /// Returns the conversation with the most datagrams that both ends have seen, both ways
-    /// together.
+    /// Returns the conversation with the most datagrams that both ends have seen, in both
+    /// directions together.
     [[nodiscard]] Conversation busiest() const
     {
         Conversation busiest;
@@ -271,7 +271,7 @@ private:
             packets, [&](const SeenPacket* one) { return of_b_.contains(identity_.of(*one)); }));
     }
 
-    /// The packets at b of the flow to which most of these packets belong there.
+    /// Returns the packets at b of the flow that contains most of these packets there.
     [[nodiscard]] Packets same_at_b(const Packets& at_a) const
     {
         std::map<PacketFlow, std::size_t> counts;
@@ -284,9 +284,9 @@ private:
         return most == counts.end() ? Packets{} : packets_of(b_, most->first);
     }
 
-    /// Adds one way to the measurement. `way` has the addresses seen at a. The order of the two
-    /// stamps shows which end has sent it. Two clocks can reverse this order, which sends_from_a()
-    /// corrects if both ways are known.
+    /// Adds one direction to the measurement. `way` has the addresses seen at a. The order of the
+    /// two stamps shows which end is the sender. Two clocks can reverse this order, which
+    /// sends_from_a() corrects if both directions are known.
     void add_way(const PacketFlow& way, Measurement& measurement) const
     {
         const Packets at_a = packets_of(a_, way);
@@ -303,8 +303,8 @@ private:
         remark_on(matched, is_up ? "up" : "down", measurement.remarks);
     }
 
-    /// Between two ways, the one from a has the larger difference of stamps: the clocks add their
-    /// own difference to both.
+    /// True if `way` is from a. Of two directions, the one from a has the larger difference of
+    /// stamps, because the difference of the clocks is added to both.
     [[nodiscard]] bool sends_from_a(const PacketFlow& way, const Matched& matched) const
     {
         const base::Duration own = median_of(matched.differences);
@@ -320,7 +320,7 @@ private:
     std::unordered_map<std::uint64_t, PacketFlow> of_b_;
 };
 
-/// Questions and answers in one capture.
+/// Matches questions and answers in one capture.
 base::Result<Measurement> measure_answers(const Packets& packets)
 {
     const Flows flows = flows_of(packets);

@@ -17,9 +17,9 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr std::size_t fitted_delays_min = 100; // fewer are too few for the test's law
+constexpr std::size_t fitted_delays_min = 100; // with fewer the law of the test is not valid
 
-/// Sorted, in nanoseconds, with their moments.
+/// Sorted values in nanoseconds, with their moments.
 struct Values {
     std::vector<double> sorted;
     double mean = 0.0;
@@ -36,14 +36,14 @@ struct Values {
     }
 };
 
-/// Rounded, and no longer than a profile may say.
+/// Returns the time rounded to microseconds, and limited to the longest delay of a profile.
 base::Duration in_microseconds(double nanoseconds)
 {
     const double most = base::to_nanoseconds(longest_delay);
     return std::chrono::microseconds{std::llround(std::clamp(nanoseconds, -most, most) / 1e3)};
 }
 
-/// The largest distance of the distribution of the values from that of a law.
+/// Returns the largest distance of the distribution of the values from that of a law.
 double distance_of(const DelayModel& model, const Values& values)
 {
     constexpr int points = 4000;
@@ -66,7 +66,7 @@ double distance_of(const DelayModel& model, const Values& values)
     return distance;
 }
 
-/// Finds the parameters of each law, and how near it comes.
+/// Finds the parameters of each law, and its distance from the values.
 class Candidates {
 public:
     explicit Candidates(const Values& values) : values_{values} {}
@@ -83,7 +83,8 @@ public:
         const double start = std::max(least - (values_.mean - least) / n, 0.0);
         try_out("exponential", start, ExponentialLaw{in_microseconds(values_.mean - start)});
         try_before(least);
-        // A few delays that do not belong to the law, as those of another regime, lie far below it.
+        // A few delays that do not belong to the law, such as those of another regime, are far
+        // below it.
         const double few = values_.sorted[values_.sorted.size() / 500];
         if (few - least > values_.sd) try_before(few);
         std::stable_sort(models_.begin(), models_.end(),
@@ -92,7 +93,8 @@ public:
     }
 
 private:
-    /// Tries laws that begin there and earlier: where they begin is not one of their parameters.
+    /// Tries laws that begin at `least` and earlier, because their beginning is not one of their
+    /// parameters.
     void try_before(double least)
     {
         for (const double back : {0.0, 0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2}) {
@@ -127,7 +129,7 @@ private:
         try_out("pareto", from, ParetoLaw{in_microseconds(first * shape / (shape - 1.0)), shape});
     }
 
-    /// Keeps the best of each name.
+    /// Keeps the best candidate of each name.
     void try_out(std::string_view name, double from, const DelayLaw& law)
     {
         if (!validate(Variation{law, {}})) return;
@@ -146,7 +148,7 @@ private:
     std::vector<DelayModel> models_;
 };
 
-/// The correlation of the scores of neighbours, both of which arrived.
+/// Returns the correlation of the scores of neighbours that both arrived.
 double correlation_of(const MeasuredWay& way, const std::vector<base::Duration>& arrived)
 {
     const auto scores = rank_scores(arrived);

@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// A law of delays with the parameters that were found for it: a constant and a jitter.
+/// A law of delays with the fitted parameters: a constant and a jitter.
 struct DelayModel {
     std::string_view name;
     base::Duration base{};
@@ -22,7 +22,7 @@ struct DelayModel {
     std::optional<double> p_value{}; // Kolmogorov-Smirnov; nullopt: too few delays
 };
 
-/// The models found for the delays of a direction.
+/// The models that were fitted to the delays of a direction.
 struct DelayFit {
     std::vector<DelayModel> models{};  // nearest first; only a constant if delays do not vary
     double correlation = 0.0;          // correlation of neighbours' normal scores
@@ -30,7 +30,7 @@ struct DelayFit {
     std::size_t independent = 0;       // delays that were far enough apart for the test
 };
 
-/// `way` has at least one delay.
+/// Fits the models. `way` has at least one delay.
 [[nodiscard]] DelayFit fit_delays(const MeasuredWay& way);
 
 /// Returns `points` quantiles of the model, in ns, ascending: the i-th is at (i + 1/2) / points.

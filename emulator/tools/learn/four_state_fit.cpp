@@ -14,12 +14,12 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// The side of a run: arrivals in the gap, or losses in a burst; arrivals in a burst, or a loss
-/// alone.
+/// The state of a run. usual: arrivals in the gap, or losses in a burst; special: arrivals in a
+/// burst, or an isolated loss.
 enum Side : std::size_t { usual, special };
 using Pair = std::array<double, 2>;
 
-/// The number of times that each step was taken, and each state kept.
+/// The number of times that each step was taken, and that each state stayed.
 struct StepCounts {
     double gap_stays = 0.0;
     double gap_to_burst = 0.0;
@@ -42,7 +42,7 @@ struct StepCounts {
                 .good_run_to_burst = share(good_run_to_burst, good_run_stays + good_run_to_burst)};
     }
 
-    /// A run that is on this side with this probability.
+    /// Adds the stays of a run that has each of its two states with this probability.
     void add_stay(const LossRun& run, Pair at)
     {
         const auto more = static_cast<double>(run.length - 1);
@@ -55,7 +55,8 @@ struct StepCounts {
     }
     void add_step(bool from_lost, Side from, Side to, double share)
     {
-        if (from_lost && from == special) return; // a loss alone: back to the gap for certain
+        // After an isolated loss the chain always returns to the gap.
+        if (from_lost && from == special) return;
         double& count = from_lost         ? (to == usual ? burst_to_gap : burst_to_good_run)
                         : from == special ? good_run_to_burst
                         : to == usual     ? gap_to_burst
@@ -66,14 +67,14 @@ struct StepCounts {
 
 double log_of(double probability) { return base::log(std::max(probability, 1e-300)); }
 
-/// Forward and backward over runs.
+/// The forward and backward algorithm over runs.
 class RunSums {
 public:
     explicit RunSums(std::span<const LossRun> runs)
         : runs_{runs}, weights_(runs.size()), forward_(runs.size())
     {}
 
-    /// The expected counts under a chain, and its log likelihood.
+    /// Returns the expected counts under a chain, and its log likelihood.
     [[nodiscard]] StepCounts expect(const FourStateSteps& steps, double& log_likelihood)
     {
         log_likelihood = weigh(steps) + go_forward(steps);
@@ -91,7 +92,7 @@ public:
     }
 
 private:
-    /// The probability of a step from one side of a run to one of the next.
+    /// Returns the probability of a step from one state of a run to a state of the next run.
     [[nodiscard]] static double step(const FourStateSteps& steps, bool from_lost, Side from,
                                      Side to)
     {
@@ -103,7 +104,7 @@ private:
         return to == usual ? steps.gap_to_burst : steps.gap_to_isolated;
     }
 
-    /// Sets the weight of both sides for the length of each run, scaled so that the larger one is
+    /// Sets the weight of both states for the length of each run, scaled so that the larger one is
     /// 1. Returns the sum of the logarithms of the scales.
     double weigh(const FourStateSteps& steps)
     {
@@ -149,7 +150,8 @@ private:
         return log_likelihood;
     }
 
-    /// The backward variable of i - 1 from that of i, up to a factor, with the steps between.
+    /// Returns the backward variable of i - 1 from that of i, up to a factor. Adds the steps
+    /// between them to `counts`.
     Pair step_back(const FourStateSteps& steps, std::size_t i, const Pair& backward,
                    StepCounts& counts)
     {
@@ -181,7 +183,7 @@ private:
     std::vector<Pair> forward_;
 };
 
-/// The counts when arrivals of fewer than `gap` in a row are within a burst.
+/// Returns the counts if fewer than `gap` consecutive arrivals are within a burst.
 StepCounts counted(std::span<const LossRun> runs, std::size_t gap)
 {
     const auto is_gap = [&](std::size_t i) { return i >= runs.size() || runs[i].length >= gap; };
@@ -190,7 +192,7 @@ StepCounts counted(std::span<const LossRun> runs, std::size_t gap)
         const bool is_alone = runs[i].length == 1 && (i == 0 || is_gap(i - 1)) && is_gap(i + 1);
         return is_alone ? special : usual;
     };
-    constexpr double a_little = 0.5; // more than 0, so that no step is ruled out
+    constexpr double a_little = 0.5; // more than 0, so that no step is impossible
     StepCounts counts{a_little, a_little, a_little, a_little,
                       a_little, a_little, a_little, a_little};
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -203,7 +205,7 @@ StepCounts counted(std::span<const LossRun> runs, std::size_t gap)
     return counts;
 }
 
-/// Makes at most `iterations_max` steps uphill.
+/// Makes at most `iterations_max` iterations.
 void iterate(RunSums& sums, FourStateFit& fit, int iterations_max)
 {
     constexpr double enough = 1e-5; // stops when the log likelihood gains less
@@ -230,7 +232,7 @@ FourState law_of(const FourStateSteps& steps)
     const double density =
         steps.good_run_to_burst / (steps.good_run_to_burst + steps.burst_to_good_run);
     const auto shares = steps.shares();
-    // Lengths are rounded up: shorter ones may be too short for the other numbers.
+    // Lengths are rounded up, because shorter ones may be invalid with the other numbers.
     const auto length = [](double value) { return std::ceil(value * 1e4) / 1e4; };
     return {.share = rounded(shares.lost_in_burst + shares.lost_in_gap),
             .burst = length(1.0 / (density * steps.burst_to_gap)),

@@ -32,7 +32,7 @@ const Value* member(const Value& object, const char* name)
     return found == object.end() ? nullptr : &*found;
 }
 
-/// Nanoseconds, at most 100 days; by two clocks a delay may be anything.
+/// Reads nanoseconds, at most 100 days. If the ends have two clocks, a delay may have any value.
 std::optional<base::Duration> duration_in(const Value* delay, const char* name)
 {
     constexpr std::int64_t most = 8'640'000'000'000'000;

@@ -8,10 +8,10 @@
 
 namespace hapnet::emulator::tools {
 
-/// Reads what `irtt client -o FILE.json` has written (irtt-client(1), OUTPUT): the delays of each
-/// way where the server has stamped, round trips otherwise. A datagram of which irtt knows on which
-/// way it was lost counts there; one that was lost on the way up was never sent down. Errors name
-/// the line.
+/// Reads the output of `irtt client -o FILE.json` (irtt-client(1), OUTPUT): one-way delays where
+/// the server has added time stamps, and round trips otherwise. If irtt knows in which direction a
+/// datagram was lost, the loss counts there. A datagram that was lost on its way up was never sent
+/// down. Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_irtt(std::string_view text);
 
 } // namespace hapnet::emulator::tools

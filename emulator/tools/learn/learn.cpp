@@ -26,8 +26,8 @@ double milliseconds_of(base::Duration duration)
     return std::chrono::duration<double, std::milli>{duration}.count();
 }
 
-/// Returns the number of datagrams that arrived after one that was sent later, where times and
-/// delays are known.
+/// Returns the number of datagrams that arrived after one that was sent later, if times and delays
+/// are known.
 std::size_t overtaken(const MeasuredWay& way)
 {
     if (!way.spacing) return 0;
@@ -42,7 +42,7 @@ std::size_t overtaken(const MeasuredWay& way)
     return count;
 }
 
-/// Writes what it finds about one way into conditions and remarks.
+/// Writes the results about one direction into conditions and remarks.
 class WayLearner {
 public:
     WayLearner(std::string name, Conditions& way, Lesson& lesson)
@@ -125,7 +125,7 @@ public:
         const auto lost = std::count(measured.lost.begin(), measured.lost.end(), true);
         const auto n = static_cast<double>(measured.lost.size());
         if (models.empty()) {
-            // The rule of three: 95 % of the time.
+            // The rule of three: true 95 % of the time.
             return say(fmt::format("loss: none of {}, so at most {:.2g} %", measured.lost.size(),
                                    300.0 / n));
         }
@@ -149,7 +149,7 @@ public:
                             static_cast<double>(measured.lost.size())));
     }
 
-    /// Takes the measured values themselves instead of a law. `conditions` have read them from
+    /// Uses the measured values themselves instead of a law. `conditions` have read them from
     /// `file`.
     void take(const Conditions& conditions, const std::string& file, LearnedForm form)
     {
@@ -169,7 +169,7 @@ private:
         return index + 1 == count ? "bad" : better[index];
     }
 
-    /// The delays of a regime, each in its place.
+    /// Returns the delays of a regime, each at its position in the series.
     [[nodiscard]] static MeasuredWay own_rows(const MeasuredWay& measured, const RegimeFit& fit)
     {
         MeasuredWay own{.spacing = measured.spacing};
@@ -226,7 +226,7 @@ private:
                model.arrivals_p_value.value_or(1.0) < significance;
     }
 
-    /// Names the model that was taken, and the arguments against it.
+    /// Names the chosen model, and the arguments against it.
     [[nodiscard]] static std::string choice_in_words(const std::vector<LossModel>& models)
     {
         const LossModel& best = models.front();
@@ -257,14 +257,14 @@ private:
     Lesson& lesson_;
 };
 
-/// A way without a single delay.
+/// True if the direction exists and has no delay.
 bool has_no_delay(const std::optional<MeasuredWay>& way)
 {
     return way &&
            std::ranges::none_of(way->delays, [](const auto& one) { return one.has_value(); });
 }
 
-/// The conditions of a way, and the figures of their regimes.
+/// The conditions of a direction, and the figures of their regimes.
 struct LearnedWay {
     Conditions conditions;
     std::vector<LearnedRegime> regimes{};
@@ -275,10 +275,11 @@ struct Choice {
     std::size_t regimes = 1; // number of regimes in the form LearnedForm::regimes
 };
 
-/// One way of a measurement: chooses the form by the first half, and learns the whole in it.
+/// One direction of a measurement. It chooses the form by the first half, and learns the whole in
+/// this form.
 class WayCourse {
 public:
-    /// `with_losses`: the losses are those of this way.
+    /// `with_losses`: the losses are those of this direction.
     WayCourse(std::string name, const MeasuredWay& measured, bool with_losses,
               const LearnSettings& settings)
         : name_{std::move(name)}, measured_{measured}, with_losses_{with_losses}
@@ -332,8 +333,8 @@ private:
         return std::ranges::any_of(way.delays, [](const auto& one) { return one.has_value(); });
     }
 
-    /// The simplest form that gives the delays of the half that it was learned from; nullopt: laws
-    /// do not, and nothing else can be named.
+    /// Returns the simplest form that reproduces the delays of the half that it was learned from;
+    /// nullopt: laws do not reproduce them, and no other form is possible.
     [[nodiscard]] std::optional<Choice> form_of(const MeasuredWay& half) const
     {
         Lesson unsaid;

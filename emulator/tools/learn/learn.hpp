@@ -30,7 +30,7 @@ constexpr auto names_of(base::Tag<LearnedForm>)
     return base::names("laws", "regimes", "table", "trace");
 }
 
-/// The lesson about one direction, or about a round trip.
+/// The result of learning for one direction, or for a round trip.
 struct WayLesson {
     std::string way{};
     LearnedForm form = LearnedForm::laws;
@@ -54,7 +54,7 @@ constexpr auto fields_of(base::Tag<WayLesson>)
                      "this form. null: fewer than 400 datagrams."));
 }
 
-/// A profile that does to datagrams what was measured, and how sure that is.
+/// A profile that reproduces the measured delays and losses, and its reliability.
 struct Lesson {
     Profile profile;
     std::vector<std::string> remarks; // for people, one on each line
@@ -85,24 +85,24 @@ constexpr auto fields_of(base::Tag<LearnReport>)
 }
 
 struct LearnSettings {
-    /// Files in which laws find the measured values, by the name of the way; none: no file can be
-    /// named.
+    /// Files from which laws read the measured values, by the name of the direction. Empty: no file
+    /// can be named.
     std::map<std::string, MeasuredTable> tables{};
     bool replays = false; // replay traces even if laws would fit
 };
 
 /// Finds the laws of a measurement: delays, their correlation in time, losses, reordering. A law of
-/// delays is rejected if its own delays would look like these one time in a thousand. If all laws
-/// are rejected, the nearest is taken, and a remark says so. If the laws of the first half do not
-/// reproduce the delays of that half (see is_near), regimes replace them; their number is the one
-/// with the least BIC there. If regimes do not reproduce them either, the measured values replace
-/// them: drawn, or replayed if their correlation requires it. The likeness of the choice to the
-/// unseen second half is reported. Then all rows are learned in the chosen form. The error: nothing
-/// arrived, or a table cannot be read.
+/// delays is rejected if delays drawn from it would look like the measured ones at most one time in
+/// a thousand. If all laws are rejected, the nearest is taken, and a remark says so. If the laws of
+/// the first half do not reproduce the delays of that half (see is_near), regimes replace them;
+/// their number is the one with the least BIC there. If regimes do not reproduce them either, the
+/// measured values replace them: drawn, or replayed if their correlation requires it. The likeness
+/// of the choice to the unseen second half is reported. Then all rows are learned in the chosen
+/// form. The error: nothing arrived, or a table cannot be read.
 [[nodiscard]] base::Result<Lesson> learn(const Measurement& measurement,
                                          const LearnSettings& settings = {});
 
-/// The profile as TOML, with the remarks as comments before it.
+/// Returns the profile as TOML, with the remarks as comments before it.
 [[nodiscard]] std::string to_text(const Lesson& lesson);
 
 } // namespace hapnet::emulator::tools

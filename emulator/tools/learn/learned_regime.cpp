@@ -13,7 +13,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// The delays that arrived, in ms.
+/// Returns the delays of the datagrams that arrived, in ms.
 std::vector<double> delays_ms(const MeasuredWay& own)
 {
     std::vector<double> values;
@@ -23,8 +23,8 @@ std::vector<double> delays_ms(const MeasuredWay& own)
     return values;
 }
 
-/// The number of independent delays that tell as much about the mean as `count` neighbours of a
-/// first-order autoregressive process with this correlation time.
+/// Returns the number of independent delays that determine the mean as precisely as `count`
+/// neighbours of a first-order autoregressive process with this correlation time.
 double independent(double count, base::Duration time, base::Duration spacing)
 {
     if (time > base::Duration{0}) {

@@ -31,7 +31,7 @@ struct LearnedRegime {
     std::string name;
     double stays = 0.0; // expected number
     Estimate stay_s;
-    std::optional<Estimate> loss; // share; nullopt: losses are put into another way
+    std::optional<Estimate> loss; // share; nullopt: losses are described in another form
     Estimate delay_ms;
     Estimate delay_sd_ms;
 };
@@ -49,13 +49,13 @@ constexpr auto fields_of(base::Tag<LearnedRegime>)
         base::member("delay_sd_ms", &L::delay_sd_ms, "The standard deviation of these delays."));
 }
 
-/// The figures of a regime. `own` are the rows that were found to be in it, each in its place. The
-/// intervals are those of independent stays, of independent losses, and of delays with the
-/// correlation time of the regime.
+/// Returns the figures of a regime. `own` are the rows that were found to be in it, each at its
+/// position in the series. The intervals are those of independent stays, of independent losses, and
+/// of delays with the correlation time of the regime.
 [[nodiscard]] LearnedRegime learned_regime(const Regime& regime, const RegimeFit& fit,
                                            const MeasuredWay& own, bool with_losses);
 
-/// Its figures in one line, for people.
+/// Returns the figures in one line, for people.
 [[nodiscard]] std::string in_words(const LearnedRegime& regime);
 
 } // namespace hapnet::emulator::tools

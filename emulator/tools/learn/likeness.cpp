@@ -140,7 +140,8 @@ double distance_between(const MeasuredWay& a, const MeasuredWay& b)
 
 std::optional<double> autocorrelation(const MeasuredWay& way, base::Duration lag)
 {
-    // A shorter series says little: 400 pairs that are independent have a correlation of 0 +- 0.05.
+    // A shorter series gives no useful value: 400 independent pairs have a correlation of 0 +-
+    // 0.05.
     constexpr std::size_t times_lag = 3, pairs_min = 400;
     if (!way.spacing || *way.spacing <= base::Duration{0}) return std::nullopt;
     const auto rows = static_cast<std::size_t>((lag + *way.spacing / 2) / *way.spacing);
@@ -217,8 +218,8 @@ Likeness likeness_of(const Conditions& conditions, const MeasuredWay& first,
 
 namespace {
 
-/// Where a play is near the series that was learned: in the distribution, in the losses after slow
-/// datagrams, and in the correlation at each lag.
+/// The criteria by which a simulation is near the learned series: the distribution, the losses
+/// after slow datagrams, and the correlation at each lag.
 using Nearness = std::array<bool, 2 + lags.size()>;
 
 Nearness nearness_of(const MeasuredWay& model, const MeasuredWay& learned)
@@ -244,7 +245,7 @@ Nearness nearness_of(const MeasuredWay& model, const MeasuredWay& learned)
 
 bool is_near(const Conditions& conditions, const MeasuredWay& learned)
 {
-    // Long series have many stays, and their plays differ less.
+    // Long series have many stays, and their simulations differ less.
     const auto affordable = rows_in_all_plays / std::max<std::size_t>(learned.delays.size(), 1);
     const std::uint64_t plays =
         conditions.regimes.empty()

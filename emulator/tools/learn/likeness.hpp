@@ -17,31 +17,32 @@ namespace hapnet::emulator::tools {
 
 // The likeness of a series to a model that was learned from another series of the same path.
 
-/// Both halves of a series, in order; the first has the odd row.
+/// Returns both halves of a series, in order. If the number of rows is odd, the first half has one
+/// row more.
 [[nodiscard]] std::pair<MeasuredWay, MeasuredWay> halves_of(const MeasuredWay& way);
 
 /// Half a 95 % interval of a normal estimate, in standard errors: its 97.5 % quantile.
 inline constexpr double standard_errors_95 = 1.959964;
 
-/// The 95 % interval of a share of `count` independent cases (Wilson, Journal of the American
-/// Statistical Association 22, 1927).
+/// Returns the 95 % interval of a share of `count` independent cases (Wilson, Journal of the
+/// American Statistical Association 22, 1927).
 [[nodiscard]] std::pair<double, double> wilson_interval(double share, double count);
 
-/// The step that all delays of a series are multiples of: 1 ms, 100 us, 10 us or 1 us.
+/// Returns the step that all delays of a series are multiples of: 1 ms, 100 us, 10 us or 1 us.
 [[nodiscard]] base::Duration resolution_of(const MeasuredWay& way);
 
 /// Returns a simulated measurement of one direction under these conditions: `rows` datagrams at
-/// even distances, delays rounded to `resolution`. `spacing` > 0.
+/// even distances, with delays rounded to `resolution`. `spacing` > 0.
 [[nodiscard]] MeasuredWay played(const Conditions& conditions, std::size_t rows,
                                  base::Duration spacing, base::Duration resolution,
                                  base::Seed seed = base::Seed{1});
 
-/// The largest distance of the distribution functions of two series of delays (Kolmogorov and
-/// Smirnov), from 0 to 1. Each has a delay.
+/// Returns the largest distance of the distribution functions of two series of delays (Kolmogorov
+/// and Smirnov), from 0 to 1. Each series has at least one delay.
 [[nodiscard]] double distance_between(const MeasuredWay& a, const MeasuredWay& b);
 
-/// The correlation of delays that are `lag` apart, of those that both arrived; nullopt: the series
-/// is too short, or its spacing is not known. 0 where delays do not vary.
+/// Returns the correlation of the delays of datagrams that are `lag` apart, both of which arrived;
+/// nullopt: the series is too short, or its spacing is not known. 0 where delays do not vary.
 [[nodiscard]] std::optional<double> autocorrelation(const MeasuredWay& way, base::Duration lag);
 
 /// The share of losses right after a delay above the 90th percentile, and the number of such
@@ -86,7 +87,8 @@ constexpr auto fields_of(base::Tag<LossWhenSlow>)
         base::member("second_half_high", &L::high, "Its upper end."));
 }
 
-/// The likeness of a series' second half to a model that was learned from its first half alone.
+/// The likeness of the second half of a series to a model that was learned from the first half
+/// alone.
 struct Likeness {
     std::size_t rows = 0;
     double halves_apart = 0.0;
@@ -117,16 +119,16 @@ constexpr auto fields_of(base::Tag<Likeness>)
                      "than 30 losses."));
 }
 
-/// `first` is what `conditions` were learned from.
+/// Returns the likeness of `second` to `conditions`, which were learned from `first`.
 [[nodiscard]] Likeness likeness_of(const Conditions& conditions, const MeasuredWay& first,
                                    const MeasuredWay& second);
 
-/// True if conditions give the delays of the series that they were learned from, well enough for
-/// another half of it: distributions at most 0.03 apart, losses right after slow datagrams within
-/// their 95 % interval, and each correlation at most 0.1 apart. Regimes last at random, so two
-/// series of the same regimes differ by more: each of these has to hold in one of twenty plays, not
-/// all in the same one. There are 40 plays of up to 100 000 rows, fewer of longer series, and at
-/// least 8.
+/// True if conditions reproduce the delays of the series that they were learned from, well enough
+/// for another half of it: distributions at most 0.03 apart, losses right after slow datagrams
+/// within their 95 % interval, and each correlation at most 0.1 apart. Regimes last at random, so
+/// two series of the same regimes differ by more. Therefore each of these criteria has to be met in
+/// one of twenty simulations, not all in the same one. There are 40 simulations of up to 100 000
+/// rows, fewer for longer series, and at least 8.
 [[nodiscard]] bool is_near(const Conditions& conditions, const MeasuredWay& learned);
 
 } // namespace hapnet::emulator::tools

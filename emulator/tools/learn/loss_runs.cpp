@@ -14,7 +14,7 @@ namespace {
 
 using Row = LossChain::Row;
 
-/// The share that goes on to each state with a datagram that is lost, or that arrives.
+/// Returns the share that moves on to each state with a datagram that is lost, or that arrives.
 Row stepped(const LossChain& chain, const Row& from, bool is_lost)
 {
     Row to{};
@@ -33,7 +33,7 @@ double sum_of(const Row& row)
 }
 
 /// Returns the ratio of the variance of a count of runs to that of independent ones: 1 + 2 times
-/// the correlations of their lengths, up to the first that is lost in the noise.
+/// the correlations of their lengths, up to the first that is below the noise.
 double inflation_of(const std::vector<std::size_t>& lengths)
 {
     constexpr std::size_t lags_max = 100;
@@ -112,7 +112,7 @@ std::optional<double> test_runs(const std::vector<LossRun>& runs, const LossChai
     double statistic = 0.0;
     int classes = 0;
     auto counted = lengths.begin();
-    double from = 1.0; // value of at_least where the class begins
+    double from = 1.0; // value of at_least at the beginning of the class
     const auto close = [&](std::vector<std::size_t>::iterator end, double to) {
         const double expected = n * (from - to);
         const auto observed = static_cast<double>(end - counted);
@@ -123,7 +123,7 @@ std::optional<double> test_runs(const std::vector<LossRun>& runs, const LossChai
     };
     for (std::size_t length = 1; length < at_least.size(); ++length) {
         const double to = at_least[length];
-        // The rest must be a class, too.
+        // The remainder must also be large enough for a class.
         if (n * (from - to) < expected_each || n * to < expected_min) continue;
         close(std::upper_bound(counted, lengths.end(), length), to);
     }

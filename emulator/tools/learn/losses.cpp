@@ -15,7 +15,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// Two states that step once per datagram, and lose a share each: 0 good, 1 bad.
+/// Two states that step once per datagram, each with a share of losses: 0 good, 1 bad.
 struct Chain {
     std::array<double, 2> leaves{}; // probability of leaving each state
     std::array<double, 2> loses{};
@@ -97,7 +97,7 @@ private:
         }
     }
 
-    /// The backward variable of i - 1 from that of i, with the steps between the two.
+    /// Returns the backward variable of i - 1 from that of i, with the steps between the two.
     std::array<double, 2> step_back(const Chain& chain, std::size_t i,
                                     const std::array<double, 2>& backward, Expected& sums)
     {
@@ -148,7 +148,7 @@ base::Probability probability(double share)
     return *base::Probability::from_fraction(std::clamp(std::round(share * 1e6) / 1e6, 0.0, 1.0));
 }
 
-/// The number of times that each of 0 and 1 follows each.
+/// Counts how often each of 0 and 1 follows each of them.
 struct Pairs {
     std::array<std::array<double, 2>, 2> counts{};
 
@@ -181,7 +181,7 @@ LossModel rated(LossModel model, double count)
 void add_gilbert_elliott(std::vector<LossModel>& models, const std::vector<bool>& all,
                          const Chain& gilbert, double share)
 {
-    // More datagrams make a step of the iteration long, and the parameters not much better.
+    // More datagrams make an iteration slow, and improve the parameters little.
     constexpr std::size_t most = 200'000;
     const std::vector<bool> lost(
         all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most)));

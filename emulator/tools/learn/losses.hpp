@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// A model of losses with the parameters under which what was lost is most likely.
+/// A model of losses with the parameters under which the measured losses are most likely.
 struct LossModel {
     std::string_view name;
     LossLaw law;
@@ -20,14 +20,14 @@ struct LossModel {
     int parameters = 0;
     double bic = 0.0; // less is better (Schwarz, Annals of Statistics 6, 1978)
 
-    // Goodness of fit (see test_runs); nullopt: too few runs to tell.
+    // The goodness of fit (see test_runs); nullopt: too few runs.
     std::optional<double> losses_p_value{};
     std::optional<double> arrivals_p_value{};
 };
 
-/// Independent losses, Gilbert, Gilbert-Elliott (Baum and Welch's iteration) and four states, the
-/// best by BIC first; empty when nothing was lost. A model whose parameters make no law is left
-/// out.
+/// Fits independent losses, Gilbert, Gilbert-Elliott (Baum and Welch's iteration) and four states.
+/// Returns them with the best by BIC first; empty when nothing was lost. A model whose parameters
+/// are not valid is left out.
 [[nodiscard]] std::vector<LossModel> fit_losses(const std::vector<bool>& lost);
 
 } // namespace hapnet::emulator::tools

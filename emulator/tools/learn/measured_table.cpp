@@ -15,7 +15,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// `file = "a.csv"`, and what else the file needs.
+/// Returns `file = "a.csv"`, and the other keys that the file needs.
 std::string keys_of(const MeasuredTable& table)
 {
     std::string keys = fmt::format("file = {}", base::quoted(table.file));

@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// A file with the delays and losses of one way, as laws read it.
+/// A file with the delays and losses of one direction, as laws read it.
 struct MeasuredTable {
     std::string file;      // name of the file in a profile
     std::string text;      // contents of the file
@@ -21,14 +21,15 @@ struct MeasuredTable {
     bool has_losses = false;
 };
 
-/// The series as a table: time_s where its spacing is known, and delay_ms, empty for a lost one.
+/// Returns the series as a table: time_s where its spacing is known, and delay_ms, which is empty
+/// for a lost datagram.
 [[nodiscard]] std::string table_of(const MeasuredWay& way);
 
-/// The table that table_of() makes, under a name.
+/// Returns the table that table_of() makes, with the name of its file.
 [[nodiscard]] MeasuredTable named_table(std::string file, const MeasuredWay& way);
 
-/// Delays drawn from the table: `base` and a jitter, so that the whole is as measured. The error:
-/// the table cannot be read.
+/// Returns conditions whose delays are drawn from the table: the delay `base` and a jitter, so that
+/// their sum is distributed as measured. The error: the table cannot be read.
 [[nodiscard]] base::Result<Conditions> drawn_from(const MeasuredTable& table, base::Duration base,
                                                   base::Duration correlation_time);
 

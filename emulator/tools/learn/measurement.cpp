@@ -25,8 +25,8 @@ MeasuredWay way_of(const TraceRows& rows)
     return way;
 }
 
-/// sequence,sent_s,round_trip_ms,there_ms,back_ms,answers; the ways are empty where the ends have
-/// two clocks.
+/// Reads sequence,sent_s,round_trip_ms,there_ms,back_ms,answers. The delays of both directions are
+/// empty if the ends have two clocks.
 base::Result<Measurement> read_probe(std::string_view text)
 {
     const auto column = [&](const std::string& name) {
@@ -41,7 +41,7 @@ base::Result<Measurement> read_probe(std::string_view text)
     return Measurement{.up = way_of(*there), .down = way_of(*back), .mixes_losses = true};
 }
 
-/// The delays that are known.
+/// Returns the known delays.
 std::vector<base::Duration> delays_of(const std::optional<MeasuredWay>& way)
 {
     std::vector<base::Duration> delays;
@@ -59,7 +59,7 @@ void shift(MeasuredWay& way, base::Duration by)
     }
 }
 
-/// One after the other, as they were measured.
+/// Appends the later values.
 void append(MeasuredWay& way, const MeasuredWay& later)
 {
     way.delays.insert(way.delays.end(), later.delays.begin(), later.delays.end());
@@ -70,7 +70,7 @@ void append(MeasuredWay& way, const MeasuredWay& later)
     way.spacing = is_alike ? std::optional{(*way.spacing + *later.spacing) / 2} : std::nullopt;
 }
 
-/// Appends a later measurement. Returns false when it does not have the same ways.
+/// Appends a later measurement. Returns false when it does not have the same directions.
 bool append(Measurement& measurement, const Measurement& later)
 {
     for (const auto way : {&Measurement::round_trip, &Measurement::up, &Measurement::down}) {

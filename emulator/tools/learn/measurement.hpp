@@ -29,7 +29,7 @@ struct MeasuredWay {
     }
 };
 
-/// The measurements: a round trip, one direction, or both. At least one of them is there.
+/// A measurement: a round trip, one direction, or both directions. At least one of them is set.
 struct Measurement {
     std::optional<MeasuredWay> round_trip{};
     std::optional<MeasuredWay> up{};
@@ -40,25 +40,25 @@ struct Measurement {
     std::vector<std::string> remarks{}; // about the input, for people
 };
 
-/// A file of measurements: the name is for messages.
+/// A file of measurements. The name is for messages.
 struct MeasuredFile {
     std::string name;
     std::string bytes;
 };
 
-/// Reads what a ping has printed (see read_ping), what `probe --csv` has written, irtt's JSON, or a
-/// table of delays (see read_trace_rows). Errors name the line.
+/// Reads the output of ping (see read_ping), of `probe --csv`, or of irtt as JSON, or a table of
+/// delays (see read_trace_rows). Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_measurement(std::string_view text,
                                                          const base::Columns& columns = {});
 
 /// Reads several files as one measurement of the same path: series follow one another in the order
-/// of the files. Captures (pcap, pcapng) are one or two, see measure_capture(). Errors begin with
-/// the name of the file.
+/// of the files. Of captures (pcap, pcapng) there may be one or two; see measure_capture(). Errors
+/// begin with the name of the file.
 [[nodiscard]] base::Result<Measurement> read_measurements(std::span<const MeasuredFile> files,
                                                           const base::Columns& columns = {});
 
-/// Gives both directions the same least delay where the ends of a path have clocks of their own,
-/// which a negative delay shows. One direction alone gets the least delay 0. A remark says so.
+/// Gives both directions the same least delay if the ends of a path have different clocks, which a
+/// negative delay shows. One direction alone gets the least delay 0. Adds a remark in these cases.
 void settle_clocks(Measurement& measurement);
 
 } // namespace hapnet::emulator::tools

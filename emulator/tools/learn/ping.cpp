@@ -47,7 +47,7 @@ std::optional<FoundNumber> number_at(std::string_view text)
     return FoundNumber{value, length};
 }
 
-/// "ttl=58" or "time<1": the word before the sign may be of any language.
+/// A pair such as "ttl=58" or "time<1". The word before the sign may be in any language.
 struct NamedNumber {
     std::string key; // ASCII letters in lower case
     double number = 0.0;
@@ -57,7 +57,7 @@ struct NamedNumber {
     [[nodiscard]] double middle() const { return is_below ? number / 2.0 : number; }
 };
 
-/// All of a line, in their order.
+/// Returns all pairs of a line, in their order.
 std::vector<NamedNumber> pairs_in(std::string_view line)
 {
     constexpr std::size_t most = 8;
@@ -85,14 +85,15 @@ std::vector<NamedNumber> pairs_in(std::string_view line)
 bool is_time_to_live(const NamedNumber& pair) { return pair.key == "ttl" || pair.key == "hlim"; }
 bool is_sequence(const NamedNumber& pair) { return pair.key.find("seq") != std::string::npos; }
 
-/// The contents of one line: an answer has its time, a question without one only its number.
+/// The contents of one line: an answer has its time, and a question without an answer has only its
+/// number.
 struct Told {
     std::optional<double> sequence{};
     std::optional<double> time_ms{};
 };
 
-/// A line of iputils, BusyBox, BSD or macOS: `icmp_seq=1 ttl=58 time=19.0 ms`, where the number
-/// stands before the time to live, and the time last.
+/// Reads a line of iputils, BusyBox, BSD or macOS: `icmp_seq=1 ttl=58 time=19.0 ms`, in which the
+/// number is before the time to live, and the time is last.
 Told told_with_number(std::string_view line)
 {
     const auto pairs = pairs_in(line);
@@ -108,7 +109,7 @@ Told told_with_number(std::string_view line)
     return told;
 }
 
-/// The time in a line of Windows: `bytes=32 time=25ms TTL=53`; in IPv6 `time=25ms` alone.
+/// Returns the time in a line of Windows: `bytes=32 time=25ms TTL=53`; in IPv6 `time=25ms` alone.
 std::optional<double> time_without_number(std::string_view line)
 {
     const auto pairs = pairs_in(line);
@@ -136,7 +137,7 @@ std::optional<FpingLine> fping_line(std::string_view line)
     return FpingLine{host, base::trimmed(line.substr(colon + 3))};
 }
 
-/// `[0], 84 bytes, 20.59 ms (...)` or `[1], timed out (...)`
+/// Reads `[0], 84 bytes, 20.59 ms (...)` or `[1], timed out (...)`.
 Told told_by_fping(std::string_view rest)
 {
     if (!rest.starts_with('[')) return {};
@@ -166,7 +167,8 @@ std::optional<std::vector<std::optional<double>>> told_in_one_line(std::string_v
     return times;
 }
 
-/// Seconds at the front of a line, as `ping -D` and `fping -D` write them: "[1585061216.814108] ".
+/// Returns the seconds at the beginning of a line, as `ping -D` and `fping -D` write them:
+/// "[1585061216.814108] ".
 std::optional<double> stamp_of(std::string_view line)
 {
     if (!line.starts_with('[')) return std::nullopt;
@@ -175,10 +177,10 @@ std::optional<double> stamp_of(std::string_view line)
     return number->value;
 }
 
-/// Answers by their numbers, one after the other.
+/// Collects answers by their numbers.
 class NumberedAnswers {
 public:
-    /// `wraps_at`: where the numbers begin again.
+    /// `wraps_at`: all numbers are below it; after the last one they begin again at 0.
     explicit NumberedAnswers(std::uint64_t wraps_at) : wraps_at_{wraps_at} {}
 
     [[nodiscard]] base::Result<void> add(const Told& told, std::optional<double> stamp)
@@ -221,7 +223,7 @@ public:
         duration_ms_ = duration_ms;
     }
 
-    /// `first`: the number of the first question, where the text tells it.
+    /// `first`: the number of the first question, if the text contains it.
     [[nodiscard]] base::Result<Measurement> finished(std::optional<std::uint64_t> first)
     {
         if (answers_ == 0) {
@@ -275,14 +277,15 @@ private:
     std::optional<Stamp> last_stamp_;
 };
 
-/// "--- example.org ping statistics ---"
+/// True for a line such as "--- example.org ping statistics ---".
 bool is_above_summary(std::string_view line)
 {
     return line.size() > 4 && line.starts_with("--") && line.ends_with("--");
 }
 
-/// "4 packets transmitted, 3 received, 25% packet loss, time 3003ms": in every language the first
-/// number is that of the packets, and behind the share that was lost only the time may come.
+/// Reads a line such as "4 packets transmitted, 3 received, 25% packet loss, time 3003ms". In every
+/// language the first number is that of the packets, and only the time may follow the share that
+/// was lost.
 void add_summary(std::string_view line, NumberedAnswers& answers)
 {
     std::optional<double> transmitted;
@@ -305,9 +308,9 @@ void add_summary(std::string_view line, NumberedAnswers& answers)
     answers.set_transmitted(static_cast<std::uint64_t>(*transmitted), has_time ? last : 0.0);
 }
 
-/// The number of the first question, as the first line of a ping tells it: iputils counts from 1,
-/// "PING x (192.0.2.1) 56(84) bytes of data."; others count from 0, "PING x (192.0.2.1): 56 data
-/// bytes".
+/// Returns the number of the first question, according to the first line of a ping: iputils counts
+/// from 1, "PING x (192.0.2.1) 56(84) bytes of data."; others count from 0, "PING x (192.0.2.1): 56
+/// data bytes".
 std::optional<std::uint64_t> first_number(std::string_view header)
 {
     if (!header.starts_with("PING")) return std::nullopt;
@@ -388,9 +391,9 @@ base::Result<Measurement> read_fping(std::string_view text)
     return measurement;
 }
 
-/// Lines of Windows, which have no numbers: what stands between the line with the host, which ends
-/// with a colon, and the next empty line is an answer or a loss. The statistics, which are
-/// indented, begin with such a line, too.
+/// Reads lines of Windows, which have no numbers. Each line between the line with the host, which
+/// ends with a colon, and the next empty line is an answer or a loss. The indented statistics also
+/// begin with a line that ends with a colon.
 class WindowsAnswers {
 public:
     [[nodiscard]] base::Result<void> add(std::string_view whole)
@@ -434,7 +437,7 @@ private:
     enum class Place : std::uint8_t { between, below_header, answers, statistics };
 
     MeasuredWay way_;
-    std::size_t below_ = 0; // answers that took less than what their line says
+    std::size_t below_ = 0; // answers that took less time than their line states
     Place place_ = Place::between;
 };
 

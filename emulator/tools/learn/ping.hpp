@@ -16,9 +16,9 @@ inline constexpr std::string_view pings_that_are_read =
 [[nodiscard]] bool is_ping(std::string_view text);
 
 /// Reads the output of one of those programs, in any language: the programs translate words, but
-/// keep the order of the numbers. Questions without an answer are lost: a missing number, and each
-/// line between the answers of Windows, which has no numbers. "time<1ms" is taken for 0.5 ms.
-/// Errors name the line.
+/// keep the order of the numbers. Questions without an answer count as lost: a missing number, and,
+/// for Windows, which prints no numbers, each line between the answers. "time<1ms" counts as 0.5
+/// ms. Errors name the line.
 [[nodiscard]] base::Result<Measurement> read_ping(std::string_view text);
 
 } // namespace hapnet::emulator::tools

@@ -29,7 +29,7 @@ constexpr std::uint8_t lost_symbol = most_classes;
 constexpr std::uint8_t unknown_symbol = most_classes + 1;
 constexpr std::size_t symbols = most_classes + 1; // symbols that a state can emit
 
-/// A series, in which delays stand in classes.
+/// A series in which delays are replaced by their classes.
 struct Series {
     std::vector<std::uint8_t> rows{};
     std::size_t classes = 0;
@@ -38,11 +38,12 @@ struct Series {
 };
 
 /// Classes of sorted delays. Classes of equal numbers alone would put the slowest delays of a good
-/// regime and the few delays of a rare bad one into the same class, where nothing tells them apart.
-/// So half of the classes have equal numbers, and the others are made where a class is widest.
+/// regime and the few delays of a rare bad one into the same class, which would make them
+/// indistinguishable. So half of the classes have equal numbers, and the others divide the widest
+/// classes.
 class Classes {
 public:
-    /// Makes at most `most` classes. `sorted` has a delay.
+    /// Makes at most `most` classes. `sorted` has at least one delay.
     Classes(const std::vector<double>& sorted, std::size_t most) : sorted_{sorted}
     {
         sum_logarithms();
@@ -60,7 +61,7 @@ public:
         }
     }
 
-    /// Each class except the first begins above an edge.
+    /// Returns the edges. Each class except the first begins above an edge.
     [[nodiscard]] std::vector<double> edges() const
     {
         std::vector<double> edges;
@@ -76,8 +77,8 @@ private:
         double gain = 0.0; // reduction of squared deviations within classes
     };
 
-    /// Sums the logarithms of the distance from the least delay: deviations are those of
-    /// logarithms, so that a long tail does not take all classes.
+    /// Sums the logarithms of the distance from the least delay. Deviations are those of
+    /// logarithms, so that a long tail does not use up all classes.
     void sum_logarithms()
     {
         const double least = sorted_.front();
@@ -86,7 +87,7 @@ private:
             sums_.push_back(sums_.back() + base::log(delay - least + scale) - base::log(scale));
     }
 
-    /// Ends a class at the first place from here on where the delay changes.
+    /// Ends a class at the first position from `place` on at which the delay changes.
     void cut_at(std::size_t place)
     {
         place = std::max<std::size_t>(place, 1);
@@ -95,7 +96,8 @@ private:
         if (place < sorted_.size() && place > before) ends_.insert(ends_.end() - 1, place);
     }
 
-    /// The place where one-dimensional k-means would cut the class of these delays in two.
+    /// Returns the position at which one-dimensional k-means would divide the class of these
+    /// delays.
     [[nodiscard]] Cut best_cut(std::size_t begin, std::size_t end) const
     {
         Cut best;
@@ -146,7 +148,7 @@ Series series_of(const MeasuredWay& way)
     return series;
 }
 
-/// A hidden Markov chain, and what one round of Baum and Welch makes of it (Rabiner, Proceedings of
+/// A hidden Markov chain, improved by rounds of Baum and Welch's algorithm (Rabiner, Proceedings of
 /// the IEEE 77, 1989, section V.A has the scaling).
 template <std::size_t K>
 class HiddenChain {
@@ -159,7 +161,8 @@ public:
     std::array<Vector, K> counts{};      // expected steps from state to state
     double log_likelihood = -std::numeric_limits<double>::infinity();
 
-    /// Makes states that take the delays between shares of all, and lose equal shares.
+    /// Returns states that each have the delays between two shares of all, and equal shares of
+    /// losses.
     static HiddenChain split(const Series& series, const Vector& upper)
     {
         HiddenChain chain;
@@ -179,7 +182,7 @@ public:
         return chain.made_ready();
     }
 
-    /// States of equal delays that lose more and more.
+    /// Returns states with equal delays and increasing losses.
     static HiddenChain losing(const Series& series)
     {
         HiddenChain chain;
@@ -191,7 +194,7 @@ public:
         return chain.made_ready();
     }
 
-    /// One round over the first `count` rows.
+    /// Makes one round over the first `count` rows.
     void improve(const Series& series, std::size_t count)
     {
         forward(series, count);
@@ -238,7 +241,7 @@ private:
         return *this;
     }
 
-    /// No class is impossible because it was not met once.
+    /// Ensures that no class is impossible only because it did not occur.
     void smooth(const Series& series)
     {
         constexpr double prior_rows = 0.5;
@@ -298,7 +301,7 @@ private:
         log_likelihood += base::log(product);
     }
 
-    /// Call it after forward().
+    /// Runs the backward pass. Call it after forward().
     void backward(const Series& series, std::size_t count, const auto& use)
     {
         Vector behind{};
@@ -327,7 +330,7 @@ private:
     std::vector<double> scale_{};
 };
 
-/// Improves until nothing more is won.
+/// Improves the chain until the gain is negligible.
 template <std::size_t K>
 void climb(HiddenChain<K>& chain, const Series& series, std::size_t rows, int rounds)
 {
@@ -358,7 +361,7 @@ std::vector<HiddenChain<K>> beginnings(const Series& series)
     }
 }
 
-/// The best of several beginnings, improved on `rows` rows.
+/// Returns the best result of several starting points, improved on `rows` rows.
 template <std::size_t K>
 HiddenChain<K> best_chain(const Series& series, std::size_t rows)
 {
@@ -383,8 +386,8 @@ double bic_of(const HiddenChain<K>& chain, const Series& series, std::size_t row
     return parameters * base::log(count) - 2.0 * chain.log_likelihood;
 }
 
-/// The rates of a chain in time by the steps of the same chain from row to row: the logarithm of
-/// the matrix, whose series ends soon where states last many rows. nullopt: they do not.
+/// Returns the rates of a chain in time from the steps of this chain from row to row: the logarithm
+/// of the matrix, whose series converges fast if states last many rows. nullopt: they do not.
 template <std::size_t K>
 std::optional<std::array<std::array<double, K>, K>>
 rates_of(const std::array<std::array<double, K>, K>& steps)

@@ -29,13 +29,13 @@ struct RegimesFit {
     double bic = 0.0; // less is better (Schwarz, Annals of Statistics 6, 1978)
 };
 
-/// Fits `count` regimes, 1 to 4, to delays and losses together: a hidden Markov chain whose states
-/// have any distribution of delays, in at most 32 classes, and a share of losses. Baum and Welch's
-/// expectation-maximisation from several beginnings. nullopt: a regime is too short to be seen at
-/// the distance of the rows, or has fewer than ten stays.
+/// Fits `count` regimes, 1 to 4, to delays and losses together. The model is a hidden Markov chain
+/// whose states have any distribution of delays, in at most 32 classes, and a share of losses. It
+/// uses Baum and Welch's expectation-maximisation from several starting points. nullopt: a regime
+/// is too short to be seen at the distance of the rows, or has fewer than ten stays.
 [[nodiscard]] std::optional<RegimesFit> fit_regimes(const MeasuredWay& way, std::size_t count);
 
-/// The number of regimes of a series, by the least BIC; 1 where there are none.
+/// Returns the number of regimes of a series with the least BIC; 1 where there are none.
 [[nodiscard]] std::size_t count_regimes(const MeasuredWay& way);
 
 } // namespace hapnet::emulator::tools

@@ -11,7 +11,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// A line of a plot: the share that was measured, and that of the law.
+/// A line of a plot: the measured share, and that of the law.
 struct Bar {
     std::string label;
     double measured = 0.0;
@@ -37,7 +37,7 @@ std::string drawn(const std::string& title, const std::vector<Bar>& bars)
     return text;
 }
 
-/// The share of ascending values from `from` to below `to`.
+/// Returns the share of the ascending values from `from` to below `to`.
 double share_between(const std::vector<double>& sorted, double from, double to)
 {
     const auto first = std::lower_bound(sorted.begin(), sorted.end(), from);

@@ -9,12 +9,13 @@
 
 namespace hapnet::emulator::tools {
 
-// Measured values beside a law, as text of at most 78 columns: '#' are measured, '|' is the law.
+// Plots of measured values and a law, as text of at most 78 columns: '#' is measured, '|' is the
+// law.
 
-/// A histogram of the delays between their 0.5 and 99.5 % quantiles, in 16 classes.
+/// Returns a histogram of the delays between their 0.5 and 99.5 % quantiles, in 16 classes.
 [[nodiscard]] std::string delay_plot(const MeasuredWay& way, const DelayModel& model);
 
-/// The number of runs of losses of each length; lengths of 8 and more share a line.
+/// Returns the number of runs of losses of each length. Lengths of 8 and more share a line.
 [[nodiscard]] std::string loss_plot(const MeasuredWay& way, const LossModel& model);
 
 } // namespace hapnet::emulator::tools

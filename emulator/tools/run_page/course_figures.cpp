@@ -25,8 +25,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t marks_max = 40; // more lines across a figure say nothing
-/// Conditions that hold for less from the start on are not drawn: the run begins with the next.
+constexpr std::size_t marks_max = 40; // more lines across a figure are not readable
+/// Conditions at the start that last for less than this time are not drawn: the run begins with the
+/// next ones.
 constexpr double shortest_start_s = 1e-3;
 
 /// The conditions after a change.
@@ -41,7 +42,8 @@ base::Result<std::string> no_files(std::string_view name)
     return base::fail(fmt::format("{} is not read again", name));
 }
 
-/// The path after a change of the statistics; the error says which setting cannot be read again.
+/// Returns the path after a change in the statistics. The error says which setting cannot be read
+/// again.
 base::Result<Path> changed(const Path& before, const Json& settings)
 {
     std::vector<Setting> read;
@@ -105,7 +107,7 @@ double rate_mbits(const Conditions& conditions)
     return 1e-6 * static_cast<double>(conditions.rate.bits_per_second);
 }
 
-/// The share that all laws together take, in percent.
+/// Returns the share that all laws together lose, in percent.
 double loss_percent(const Conditions& conditions, const Arrivals& arrivals)
 {
     double passing = 1.0;
@@ -138,11 +140,11 @@ struct Measured {
     }
 };
 
-/// A figure over time: what was asked for, and what was measured.
+/// A kind of figure over time: the requested and the measured values.
 struct Kind {
     std::string_view name;
     page::Axis y;
-    std::function<double(const Conditions&)> asked; // empty: it cannot be asked for
+    std::function<double(const Conditions&)> asked; // empty: it cannot be requested
     std::function<double(const Measured&)> measured;
     std::function<page::Range(const Measured&)> spread; // empty: no band is drawn
     std::string about;
@@ -184,7 +186,7 @@ struct Course {
     }
 };
 
-/// Gives nullopt if no value is above zero.
+/// Returns the figure; nullopt if no value is above zero.
 std::optional<page::Figure> figure_of(const Kind& kind, const Course& course)
 {
     std::vector<page::Curve> curves;
@@ -216,7 +218,7 @@ std::optional<page::Figure> figure_of(const Kind& kind, const Course& course)
         .caption = kind.about};
 }
 
-/// The mean time between two arrivals, and how many came.
+/// Returns the mean time between two arrivals, and their number.
 Arrivals arrivals_of(const Json& statistics, double length_s)
 {
     const auto received =

@@ -47,7 +47,8 @@ std::vector<Bin> drawn_bins(std::span<const Fate> fates)
     return bins;
 }
 
-/// The law's density over the same bins; empty where delay and jitter both vary, or neither does.
+/// Returns the law's density over the same bins; empty if delay and jitter both vary, or neither
+/// does.
 std::vector<Point> law_of(const Conditions& conditions, const std::vector<Bin>& bins)
 {
     DelayTheory delay{conditions.delay.law};

@@ -17,7 +17,7 @@ namespace hapnet::emulator::tools {
 
 // The figures of a run's page; nullopt where there is nothing to be shown.
 
-/// A direction, as people read it.
+/// Returns the description of a direction for people.
 [[nodiscard]] constexpr std::string_view words_on(Direction direction)
 {
     return direction == Direction::up ? "up (A to B)" : "down (B to A)";
@@ -32,33 +32,33 @@ struct RunDirection {
     double spacing_s = 0.0; // mean time between two datagrams
 };
 
-/// Delay as the law has it, as it was drawn and as it came out: densities.
+/// Returns the densities of the delay: by the law, as drawn, and as measured.
 [[nodiscard]] std::optional<page::Figure> delay_figure(const RunDirection& run);
 
-/// The distribution of the lateness, with the budget.
+/// Returns the distribution of the lateness, with the budget.
 [[nodiscard]] std::optional<page::Figure> lateness_figure(const RunDirection& run,
                                                           double budget_us);
 
-/// The places in the stream where datagrams were lost; nullopt: none was.
+/// Returns the positions in the stream at which datagrams were lost; nullopt: none was lost.
 [[nodiscard]] std::optional<page::Figure> loss_figure(const RunDirection& run);
 
-/// The lengths of the runs of losses, beside a geometric distribution with the law's mean.
+/// Returns the lengths of the runs of losses, beside a geometric distribution with the law's mean.
 [[nodiscard]] std::optional<page::Figure> loss_runs_figure(const RunDirection& run);
 
-/// True if a change in the statistics is the last step of a ramp whose first step is the previous
-/// change: of a ramp the statistics keep these two, while the generation counts every step.
+/// True if `change` is the last step of a ramp whose first step is `before`. The statistics keep
+/// only these two steps of a ramp, while the generation counts every step.
 [[nodiscard]] bool ends_ramp(const nlohmann::ordered_json& before,
                              const nlohmann::ordered_json& change);
 
-/// The course of a run, in a figure each of those of delay, loss, rate and queue that have values.
+/// The course of a run: one figure each for delay, loss, rate and queue, if they have values.
 struct CourseFigures {
     std::vector<page::Figure> figures;
-    std::string why_not_asked; // why figures lack what was asked for; empty: they have it
+    std::string why_not_asked; // why figures lack the requested values; empty: they have them
 };
 
-/// Figures of the conditions that were asked for and of the measurements over time. A change is a
-/// step, a ramp is a straight line. Where a setting cannot be read from the statistics, such as one
-/// that names a file, only the measurements are shown.
+/// Returns figures of the requested conditions and of the measurements over time. A change is a
+/// step, and a ramp is a straight line. If a setting cannot be read from the statistics, such as
+/// one that names a file, only the measurements are shown.
 [[nodiscard]] CourseFigures course_figures(const Path& start,
                                            const nlohmann::ordered_json& statistics);
 

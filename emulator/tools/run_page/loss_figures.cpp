@@ -41,7 +41,7 @@ std::vector<std::uint64_t> run_lengths(std::span<const Fate> fates)
     return counts;
 }
 
-/// The share of runs that have at least this length.
+/// Returns the share of runs that have at least each length.
 std::vector<Point> at_least(const std::vector<std::uint64_t>& counts)
 {
     double left = 0.0;

@@ -25,7 +25,7 @@ namespace {
 using page::Json;
 using Rows = std::vector<std::vector<std::string>>; // texts of the cells
 
-/// "–" of what is not there.
+/// Returns a value as text; "–" for a missing value.
 std::string text_of(const nlohmann::ordered_json& value)
 {
     if (value.is_null()) return "–";
@@ -37,14 +37,14 @@ std::string text_of(const nlohmann::ordered_json& value)
                                           : fmt::format("{:.0f}", number);
 }
 
-/// A value of the statistics as text.
+/// Returns a value of the statistics as text.
 std::string shown(const nlohmann::ordered_json& statistics, const char* pointer)
 {
     const nlohmann::ordered_json::json_pointer at{pointer};
     return text_of(statistics.contains(at) ? statistics[at] : nlohmann::ordered_json{});
 }
 
-/// `has_words`: the last column has sentences, which wrap.
+/// Returns a table. `has_words`: the last column has sentences, which wrap.
 Json table(std::string caption, const std::vector<std::string>& heads, const Rows& rows,
            bool has_words)
 {
@@ -102,7 +102,8 @@ Json figures_table(const nlohmann::ordered_json& statistics)
                  rows, false);
 }
 
-/// A row for each flow and direction; the others of a run are on pages of their own.
+/// Returns a table with a row for each flow and direction. The other paths of a run are on pages of
+/// their own.
 Json flows_table(const nlohmann::ordered_json& statistics)
 {
     Rows rows;
@@ -121,7 +122,7 @@ Json flows_table(const nlohmann::ordered_json& statistics)
                  false);
 }
 
-/// A row for each regime and direction.
+/// Returns a table with a row for each regime and direction.
 Json regimes_table(const nlohmann::ordered_json& statistics, const Path& path)
 {
     Rows rows;
@@ -161,7 +162,7 @@ std::string settings_of(const nlohmann::ordered_json& change)
     return text;
 }
 
-/// A row for each change; a ramp is one row, from its first step to its last.
+/// Returns a table with a row for each change. A ramp is one row, from its first step to its last.
 Json changes_table(const nlohmann::ordered_json& statistics)
 {
     Rows rows;
@@ -208,19 +209,19 @@ void add_tests(page::Section& section, const RunRecord& run)
         table("Tests of the fates", {"test", "outcome", "p", "expected and observed"}, rows, true));
 }
 
-/// Figures beside each other in panels, and over the whole width.
+/// Figures side by side in panels, and figures over the whole width.
 struct Placed {
     Json panels = Json::array();
     Json strips = Json::array();
 };
 
-/// True if other conditions came after those of the start.
+/// True if the conditions of the start have changed.
 bool has_changed(const RunRecord& run)
 {
     return !run.profile.timeline.empty() || run.statistics.value("generation", 1) != 1;
 }
 
-/// Returns true if the path has regimes, so that no single law gives its delays.
+/// Returns true if the path has regimes, so that no single law describes its delays.
 bool has_regimes(const RunRecord& run)
 {
     const Path path = profile_of(run.profile, run.link).path;
@@ -277,7 +278,7 @@ page::Section figures_of(const RunRecord& run)
     return section;
 }
 
-/// Shows the conditions and the measurements on one axis of time.
+/// Returns the section with the conditions and the measurements on one time axis.
 page::Section course_of(const RunRecord& run)
 {
     page::Section section{"course", "What happened over time"};
@@ -300,8 +301,8 @@ page::Section course_of(const RunRecord& run)
 
 constexpr std::size_t asked_length_max = 200; // characters; longer texts are not read at a glance
 
-/// The conditions of the start in one sentence: " Asked, both ways: delay 30ms, loss 2%." Empty
-/// where they are too many for one.
+/// Returns the conditions of the start in one sentence: " Asked, both ways: delay 30ms, loss 2%."
+/// Empty if they are too many for one sentence.
 std::string asked_of(const RunRecord& run)
 {
     Profile start;

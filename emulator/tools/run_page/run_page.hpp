@@ -25,7 +25,7 @@ struct RunRecord {
     std::string fates_file{};
 };
 
-/// Returns one page about one run, without any other file: its conditions and its results.
+/// Returns a self-contained page about one run: its conditions and its results.
 [[nodiscard]] std::string run_page(const RunRecord& run);
 
 } // namespace hapnet::emulator::tools

@@ -38,7 +38,7 @@ Delays delays_of(std::span<const Fate> fates, std::size_t stride)
     return delays;
 }
 
-/// Drawn from the same laws without their correlation, by a seed of our own.
+/// Returns delays drawn from the same laws without their correlation, with a fixed seed.
 Delays drawn(const Conditions& conditions, std::size_t count)
 {
     const base::Seed seed{0x5eed'0f'c0ffee};

@@ -13,9 +13,9 @@
 
 namespace hapnet::emulator::tools {
 
-/// The tests that apply to the delays that were drawn: a constant one exactly, others against as
-/// many draws of another seed, and neighbours against their correlation. Correlated delays need the
-/// spacing; of those, only some that lie far enough apart are compared.
+/// Returns the tests that apply to the drawn delays. A constant one is tested exactly. Others are
+/// compared with as many draws of another seed, and neighbours with their correlation. Correlated
+/// delays need the spacing; only some of them that are far enough apart are compared.
 [[nodiscard]] std::vector<TestResult> verify_delays(const Conditions& conditions,
                                                     std::span<const Fate> fates,
                                                     std::optional<base::Duration> spacing,

@@ -14,7 +14,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-constexpr std::size_t delays_min = 100; // fewer are too few for the statistics' laws
+constexpr std::size_t delays_min = 100; // with fewer the laws of the statistics are not valid
 
 TestResult too_few(std::string name)
 {
@@ -77,7 +77,7 @@ TestResult test_correlation(std::span<const double> scores, double rho, double a
         with_innovation += scores[i] * innovation;
         squares += scores[i] * scores[i];
     }
-    // The innovations are standard normal and know nothing of what was before.
+    // The innovations are standard normal and independent of the past.
     const double z = with_innovation / std::sqrt(squares);
     auto result = by_chance("delay correlation", products / squares, normal_two_sided(z), alpha);
     result.sentence =

@@ -17,11 +17,11 @@ namespace hapnet::emulator::tools {
 [[nodiscard]] TestResult test_same_law(std::vector<base::Duration> a, std::vector<base::Duration> b,
                                        double alpha);
 
-/// The normal quantile of each delay's rank; equal delays share a rank.
+/// Returns the normal quantile of each delay's rank. Equal delays share a rank.
 [[nodiscard]] std::vector<double> rank_scores(const std::vector<base::Duration>& delays);
 
-/// Tests if neighbouring normal scores are correlated as they should be, by the innovations
-/// (z[i+1] - rho z[i]) / sqrt(1 - rho^2) against z[i]. `rho`: expected, |rho| < 1.
+/// Tests if neighbouring normal scores have the expected correlation, by the innovations (z[i+1] -
+/// rho z[i]) / sqrt(1 - rho^2) against z[i]. `rho`: expected, |rho| < 1.
 [[nodiscard]] TestResult test_correlation(std::span<const double> scores, double rho, double alpha);
 
 } // namespace hapnet::emulator::tools

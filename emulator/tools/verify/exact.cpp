@@ -13,7 +13,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// The statistic is the number of deviations; the sentence names the first.
+/// Counts deviations. The statistic is their number; the sentence names the first.
 TestResult count_deviations(std::string name, std::size_t count, auto&& deviates,
                             std::string_view what)
 {
@@ -86,7 +86,7 @@ TestResult test_places(std::span<const std::uint8_t> lost, const ExactBlocks& la
     for (std::size_t i = 0; i < whole * of; ++i) losses[i % of] += lost[i];
     double sum = 0.0;
     for (const double one : losses) sum += (one - expected) * (one - expected);
-    // As each block loses its exact number, the places share one degree of freedom less.
+    // As each block loses its exact number, the places have one degree of freedom less.
     const auto degrees = static_cast<double>(of - 1);
     const double variance = expected * (1.0 - expected / blocks) * law.of / degrees;
     const double chi_square = sum / variance;
@@ -101,7 +101,7 @@ TestResult test_bursts(std::span<const std::uint8_t> lost, const RecurringBursts
 {
     const std::size_t of = law.of;
     if (lost.size() < 2 * of) return unable("bursts", "fewer than two periods were observed");
-    // The first beginning of a burst that can be seen; a law that loses all has none, and needs
+    // The first visible beginning of a burst. A law that loses all datagrams has none, and needs
     // none.
     std::size_t begin = 1;
     while (begin < of && !(lost[begin] != 0 && lost[begin - 1] == 0)) ++begin;

@@ -14,7 +14,7 @@ namespace hapnet::emulator::tools {
 
 // Tests of laws that leave nothing, or little, to chance.
 
-/// Datagram by datagram; also the numbers have to be equal.
+/// Tests if the fates are equal, datagram by datagram, and if their numbers are equal.
 [[nodiscard]] TestResult test_equal(std::span<const Fate> expected, std::span<const Fate> observed);
 
 /// Compares expected and observed losses (1: lost) index by index, for laws that draw nothing.

@@ -34,7 +34,8 @@ struct ChiSquare {
     }
 };
 
-/// Neighbouring lengths share a bin until enough are expected in it; the last bin is open.
+/// Compares the lengths of runs. Neighbouring lengths share a bin until enough are expected in it;
+/// the last bin is open.
 ChiSquare compare_lengths(const std::vector<std::uint64_t>& runs, const RunLengths& law,
                           double count)
 {
@@ -77,7 +78,7 @@ TestResult test_share(const LossTally& tally, const LossTheory& theory, double a
     const double share = theory.share;
     const auto text = shares(share, observed, tally.datagrams());
     if (share <= 0.0 || share >= 1.0) return exactly("losses", observed == share, text);
-    constexpr double worth_min = 100.0; // independent losses, for the normal law to be near enough
+    constexpr double worth_min = 100.0; // independent losses, enough for the normal law
     const double worth =
         n * std::min(share, 1.0 - share) / std::max(theory.variance_inflation, 1.0);
     if (worth < worth_min) {
@@ -120,7 +121,7 @@ TestResult test_number_of_runs(const LossTally& tally, double alpha)
     const auto n = static_cast<double>(tally.datagrams());
     const auto lost = static_cast<double>(tally.losses());
     const double passed = n - lost;
-    if (std::min(lost, passed) < 20.0) { // with fewer the law is not near enough to normal
+    if (std::min(lost, passed) < 20.0) { // with fewer the law is not normal enough
         return unable("number of runs", "fewer than 20 losses, or than 20 datagrams that pass");
     }
     const double mean = 2.0 * lost * passed / n + 1.0;

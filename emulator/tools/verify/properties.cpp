@@ -38,7 +38,7 @@ std::size_t stride_of(const RunLengths& runs)
     return 1 + static_cast<std::size_t>(std::ceil(std::log(forgotten) / std::log(runs.memory)));
 }
 
-/// The test of each property.
+/// Runs the test of each property.
 struct Tester {
     std::span<const std::uint8_t> lost;
     std::span<const LossState> states;
@@ -75,7 +75,7 @@ struct Tester {
     }
 };
 
-/// The share that several laws lose together.
+/// Tests the share of losses of several laws together.
 Results verify_together(const std::vector<LossLaw>& laws, std::span<const std::uint8_t> lost,
                         std::optional<base::Duration> spacing, double alpha)
 {
@@ -88,7 +88,8 @@ Results verify_together(const std::vector<LossLaw>& laws, std::span<const std::u
     for (const LossLaw& law : laws) {
         const auto one = theory_of(law, {spacing.value_or(base::Duration{1}), lost.size()});
         passes *= 1.0 - one.share;
-        // Losses by any of several independent laws vary no more than those of the worst of them.
+        // Losses by any of several independent laws do not vary more than those of the law that
+        // varies most.
         all.variance_inflation = std::max(all.variance_inflation, one.variance_inflation);
     }
     all.share = 1.0 - passes;

@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// The losses of a direction: entry n is that of datagram n.
+/// The losses of a direction. Entry n is that of datagram n.
 struct LossRecord {
     std::vector<std::uint8_t> lost;             // 1: lost
     std::vector<std::vector<LossState>> states; // for each law, the states of all datagrams
@@ -23,14 +23,14 @@ struct LossRecord {
 };
 [[nodiscard]] LossRecord loss_record(std::span<const Fate> fates, std::size_t laws);
 
-/// One test for each property that a law states. `states` are those of the law.
+/// Returns one test for each property of a law. `states` are those of the law.
 [[nodiscard]] std::vector<TestResult> verify_properties(const std::vector<LossProperty>& properties,
                                                         std::span<const std::uint8_t> lost,
                                                         std::span<const LossState> states,
                                                         double alpha);
 
-/// The tests that apply to the losses of a direction under its laws. Where several laws act
-/// together only the share that they lose, and the steps of each chain, can be told.
+/// Returns the tests that apply to the losses of a direction under its laws. If several laws act
+/// together, only their common share of losses and the steps of each chain can be tested.
 [[nodiscard]] std::vector<TestResult> verify_losses(const std::vector<LossLaw>& laws,
                                                     const LossRecord& record,
                                                     std::optional<base::Duration> spacing,

@@ -44,7 +44,7 @@ constexpr std::uint64_t stays_min = 10; // fewer stays allow no verdict
 
 std::string regime_words(const Regime& regime) { return fmt::format("regime {}", regime.name); }
 
-/// Tests how often the next datagram after one in the regime `from` met each other regime.
+/// Tests how often the next datagram after one in the regime `from` was in each other regime.
 Results verify_passages(std::span<const Regime> regimes, std::size_t from,
                         std::span<const Fate> fates, const std::vector<double>& expected,
                         double alpha)
@@ -74,8 +74,8 @@ Results verify_passages(std::span<const Regime> regimes, std::size_t from,
     return results;
 }
 
-/// Tests the stays in a regime: their lengths have to be geometric, and their number as the law
-/// says.
+/// Tests the stays in a regime: their lengths have to be geometric, and their number has to agree
+/// with the law.
 TestResult verify_stays(const Regime& regime, std::size_t index, std::span<const Fate> fates,
                         double remains, double alpha)
 {
@@ -107,8 +107,8 @@ TestResult verify_stays(const Regime& regime, std::size_t index, std::span<const
     return result;
 }
 
-/// Returns the losses of one regime. A datagram without a state stands between stretches that do
-/// not follow each other.
+/// Returns the losses of one regime. Stretches that do not follow each other are separated by a
+/// datagram without a state.
 LossRecord separated(std::span<const Fate> fates, std::size_t regime, std::size_t laws)
 {
     const Fate none;
@@ -123,7 +123,7 @@ LossRecord separated(std::span<const Fate> fates, std::size_t regime, std::size_
     return loss_record(own, laws);
 }
 
-/// Returns datagrams of a regime, no two of which are nearer than `stride`.
+/// Returns datagrams of a regime that are at least `stride` apart.
 std::vector<Fate> thinned(std::span<const Fate> fates, std::size_t regime, std::size_t stride)
 {
     std::vector<Fate> own;
@@ -136,8 +136,9 @@ std::vector<Fate> thinned(std::span<const Fate> fates, std::size_t regime, std::
     return own;
 }
 
-/// Independent losses are tested as outside of regimes. For other laws only the shares and the
-/// steps of their chains are tested, because runs end where the regime ends.
+/// Tests losses within a regime. Independent losses are tested as outside of regimes. For other
+/// laws only the shares and the steps of their chains are tested, because runs end where the regime
+/// ends.
 Results verify_losses_within(const std::vector<LossLaw>& laws, std::span<const Fate> fates,
                              std::size_t regime, std::optional<base::Duration> spacing,
                              double alpha)
@@ -183,7 +184,8 @@ Results verify_delays_within(Conditions conditions, std::span<const Fate> fates,
         return {unable("delay law", "delays are correlated in time, and the spacing of the "
                                     "datagrams is not known")};
     }
-    // exp(-5) = 0.7 % of the correlation is left: too little for the law, not for its own test.
+    // exp(-5) = 0.7 % of the correlation is left, which is negligible for the test of the law, but
+    // not for the test of the correlation itself.
     const auto stride = static_cast<std::size_t>(5 * memory / *spacing) + 1;
     conditions.delay.correlation_time = conditions.jitter.correlation_time = none;
     auto results = verify_delays(conditions, thinned(fates, regime, stride), spacing, alpha);

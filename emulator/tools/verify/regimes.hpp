@@ -13,13 +13,14 @@
 
 namespace hapnet::emulator::tools {
 
-/// [i][j]: with what probability the regime j holds a time after the regime i did, whatever came in
-/// between: the exponential of the chain's rates times that time. `after` >= 0.
+/// Returns a matrix: [i][j] is the probability that regime j is in effect a time `after` regime i
+/// was, whatever came in between. It is the exponential of the chain's rates times that time.
+/// `after` >= 0.
 [[nodiscard]] std::vector<std::vector<double>> passages_of(std::span<const Regime> regimes,
                                                            base::Duration after);
 
-/// Tests the regimes of a direction by the regime that each fate has: their lengths, their order,
-/// and the laws within each. `conditions` has regimes.
+/// Tests the regimes of a direction by the regime of each fate: their lengths, their order, and the
+/// laws within each. `conditions` has regimes.
 [[nodiscard]] std::vector<TestResult> verify_regimes(const Conditions& conditions,
                                                      std::span<const Fate> fates,
                                                      std::optional<base::Duration> spacing,

@@ -8,7 +8,7 @@ namespace hapnet::emulator::tools {
 
 TestResult by_chance(std::string name, double statistic, double p_value, double alpha)
 {
-    // Written so that a p-value which is not a number fails.
+    // This form makes a p-value that is not a number fail.
     const bool passes = p_value >= alpha;
     return {std::move(name), statistic, p_value, passes ? Outcome::passed : Outcome::failed, {}};
 }

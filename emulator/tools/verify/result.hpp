@@ -38,11 +38,11 @@ constexpr auto fields_of(base::Tag<TestResult>)
         base::member("says", &R::sentence, "What was expected and observed, in words."));
 }
 
-/// Fails when p < alpha: for a law that is right, this happens with the probability alpha.
+/// Fails when p < alpha. If the law is right, this happens with the probability alpha.
 [[nodiscard]] TestResult by_chance(std::string name, double statistic, double p_value,
                                    double alpha);
 
-/// Fails on the first deviation.
+/// Fails if the property does not hold exactly.
 [[nodiscard]] TestResult exactly(std::string name, bool holds, std::string sentence);
 
 [[nodiscard]] TestResult unable(std::string name, std::string sentence);

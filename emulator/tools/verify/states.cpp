@@ -12,7 +12,7 @@ namespace hapnet::emulator::tools {
 
 namespace {
 
-/// `count` of the `of` datagrams that met a state.
+/// Tests `count` of the `of` datagrams that were in a state.
 TestResult frequency(std::string name, std::uint64_t count, std::uint64_t of, double expected,
                      double alpha)
 {

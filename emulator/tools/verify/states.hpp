@@ -11,7 +11,7 @@
 
 namespace hapnet::emulator::tools {
 
-// Tests of the states of a chain: one per datagram, without a gap.
+// Tests of the states of a chain: one state per datagram, without a gap.
 
 /// Tests the number of steps of the chain from one state to another against the binomial law.
 [[nodiscard]] TestResult test_step(const StateStep& step, std::span<const LossState> states,

@@ -38,7 +38,7 @@ double kolmogorov_tail(double distance, double n)
 {
     const double root = std::sqrt(n);
     const double t = distance * (root + 0.12 + 0.11 / root);
-    if (t < 0.3) return 1.0; // 1 - 9e-6; the series below wants a larger t
+    if (t < 0.3) return 1.0; // 1 - 9e-6; the series below needs a larger t
     double sum = 0.0;
     double sign = 2.0;
     for (int k = 1; k <= 100; ++k) {

@@ -8,12 +8,12 @@
 
 namespace hapnet::emulator::tools {
 
-/// Counts of a sequence of losses, as far as the tests need them. Takes one datagram after the
+/// Counts the properties of a sequence of losses that the tests need. Takes one datagram after the
 /// other and keeps none.
 class LossTally {
 public:
-    /// Keeps only every `stride`-th run of losses: neighbouring runs of some laws depend on each
-    /// other.
+    /// Keeps only every `stride`-th run of losses, because neighbouring runs of some laws depend on
+    /// each other.
     explicit LossTally(std::size_t stride = 1) : stride_{stride} {}
 
     void add(bool is_lost);
@@ -21,14 +21,16 @@ public:
     [[nodiscard]] std::uint64_t datagrams() const { return datagrams_; }
     [[nodiscard]] std::uint64_t losses() const { return losses_; }
 
-    /// Pairs of neighbours, by the first and the second of them.
+    /// Returns the number of pairs of neighbours of which the first was lost (or not) and the
+    /// second was lost (or not).
     [[nodiscard]] std::uint64_t pairs(bool first, bool second) const
     {
         return pairs_[(first ? 2U : 0U) + (second ? 1U : 0U)];
     }
 
-    /// [i]: runs of i + 1 losses, without one at the very beginning and one at the end, of which
-    /// only a part may have been seen.
+    /// Returns the counts of runs by length: [i] counts runs of i + 1 losses. A run at the very
+    /// beginning and one at the end are not counted, because only a part of them may have been
+    /// seen.
     [[nodiscard]] const std::vector<std::uint64_t>& runs() const { return runs_; }
 
 private:
@@ -40,12 +42,12 @@ private:
     std::uint64_t pairs_[4] = {};
     std::vector<std::uint64_t> runs_{};
     std::size_t run_ = 0; // length of the run of losses in progress
-    bool began_ = false;  // a datagram that was not lost has come: the first run is over
+    bool began_ = false;  // a datagram was not lost, so the first run is over
     bool was_lost_ = false;
     std::uint64_t ended_runs_ = 0;
 };
 
-/// Counts of two sequences of losses, side by side.
+/// Counts of two sequences of losses, datagram by datagram.
 struct PairTally {
     std::uint64_t datagrams = 0;
     std::uint64_t first = 0;  // losses in the first sequence

@@ -35,7 +35,7 @@ bool is_in_time(const Conditions& conditions)
                        [](const LossLaw& law) { return is_in_time(law); });
 }
 
-/// Tests that the seed gives these fates, in the regimes that they name.
+/// Tests that the seed gives these fates, in their regimes.
 TestResult verify_seed(const Claim& claim, Direction direction, std::span<const Fate> fates)
 {
     const auto& conditions = direction == Direction::up ? claim.path.up : claim.path.down;

@@ -15,7 +15,7 @@
 
 namespace hapnet::emulator::tools {
 
-/// The conditions that a run was meant to have, the same from its first datagram to its last.
+/// The intended conditions of a run, constant from its first datagram to its last.
 struct Claim {
     Path path;
     std::optional<base::Seed> seed{};        // if known, the fates are drawn again and compared
@@ -48,11 +48,11 @@ constexpr auto fields_of(base::Tag<Verification>)
 [[nodiscard]] Verification verify(const Claim& claim, std::span<const Fate> up,
                                   std::span<const Fate> down);
 
-/// The tests of one direction.
+/// Returns the tests of one direction.
 [[nodiscard]] std::vector<TestResult> verify_direction(const Claim& claim, Direction direction,
                                                        std::span<const Fate> fates);
 
-/// One line per test, and one with the verdict.
+/// Returns one line per test, and one with the verdict.
 [[nodiscard]] std::string to_text(const Verification& verification);
 
 } // namespace hapnet::emulator::tools
