@@ -75,7 +75,7 @@ inline constexpr std::size_t stepper_kinds = 6;
 /// Returns the features that a stepper supports.
 [[nodiscard]] FeatureSet abilities_of(StepperKind kind);
 
-/// Whether a scene requires a feature, and why or why not.
+/// The need of a scene for a feature: true or false, and why.
 struct Requirement {
     Feature feature = Feature::contact;
     bool is_required = false;

@@ -28,7 +28,7 @@ struct HandTick {
     double tick = 0.0;
 };
 
-/// Whether the energy that the springs store at the end counts.
+/// Selects if the energy that the springs store at the end counts.
 enum class SpringsAtEnd : std::uint8_t { ignored, counted };
 
 /// Makes the hands passive: they give a body no more energy than their springs had stored plus the
