@@ -70,8 +70,8 @@ public:
         std::span<const std::byte> datagram;
         base::TimePoint at;
     };
-    /// A function between the links and the sides. It is called with each datagram instead of the
-    /// side that the datagram is for. It may pass any bytes to that side: VirtualPlayer::receive().
+    /// A function between the links and the sides. It gets each datagram instead of the side for
+    /// which the datagram is meant. It may pass any bytes to that side by VirtualPlayer::receive().
     using Interceptor = std::function<void(const Arrival& arrival)>;
     void intercept(Interceptor interceptor) { interceptor_ = std::move(interceptor); }
 
