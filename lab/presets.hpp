@@ -7,7 +7,7 @@
 
 namespace hapnet::lab {
 
-/// A profile that every emulator of this version carries with it.
+/// A profile that is built into every emulator of this version.
 struct Preset {
     std::string_view name;
     std::string_view text;

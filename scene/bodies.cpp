@@ -19,8 +19,8 @@ int free_axis(Turning turning)
     return static_cast<int>(turning) - static_cast<int>(Turning::about_x);
 }
 
-/// Returns the inertia in the world's frame of a body that turns about one of the world's axes
-/// alone. Turning does not change it.
+/// Returns the inertia in the world's frame of a body that turns only about one of the world's
+/// axes. Rotation does not change it.
 double inertia_about(int axis, const glm::dvec3& inertia, const glm::dquat& orientation)
 {
     const glm::dmat3 axes = glm::mat3_cast(orientation);
@@ -111,7 +111,7 @@ Bodies::Bodies(const Description& description)
     }
 }
 
-/// Adds the further parts of bodies with several, after the first parts of all bodies.
+/// Adds the further parts of bodies of several parts, after the first parts of all bodies.
 void Bodies::add_parts(const Description& description)
 {
     const auto& bodies = description.bodies;

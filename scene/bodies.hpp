@@ -30,7 +30,7 @@ using PartId = std::uint32_t;
 /// Where a body lies in the lanes. It changes when the body falls asleep or wakes; its id does not.
 using Slot = std::uint32_t;
 
-/// The properties of a body that never change: the cold half.
+/// The properties of a body that never change. They are the cold half of its data.
 struct BodyProperties {
     BodyId id = 0;
     glm::dvec3 half{0.02};    // half the edges of the box, or of the box around the shape, m
@@ -40,10 +40,12 @@ struct BodyProperties {
     PartId parts_end = 0;
     glm::dvec3 inverse_mass{0.0};    // 1/kg per axis of the world; 0 where locked or fixed
     glm::dvec3 inertia{1.0};         // kg m^2 about the body's own axes
-    glm::dvec3 inverse_inertia{0.0}; // 0 where it cannot rotate; with one free axis see `turning`
+    glm::dvec3 inverse_inertia{0.0}; // 0 where the body cannot rotate; with one free axis see
+                                     // `turning`
     double mass = 0.0;               // kg; 0: fixed
     Turning turning = Turning::locked;
-    bool is_kinematic = false; // fixed, but it moves: angular_momentum holds its angular velocity
+    bool is_kinematic = false; // not pushed, but it moves: angular_momentum holds its angular
+                               // velocity
     bool is_isotropic = false; // the three moments of inertia are equal, as a cube's
     Material material{};
     double drag = 0.0; // N s/m
@@ -51,7 +53,7 @@ struct BodyProperties {
     [[nodiscard]] bool has_parts() const { return parts_begin != parts_end; }
 };
 
-/// An angular impulse changes the momentum only about axes that the body may turn about.
+/// Returns the angular impulse without its parts about axes that the body cannot turn about.
 [[nodiscard]] inline glm::dvec3 about_unlocked_axes(const BodyProperties& properties,
                                                     const glm::dvec3& angular)
 {
@@ -61,17 +63,17 @@ struct BodyProperties {
             properties.inverse_inertia.z > 0.0 ? angular.z : 0.0};
 }
 
-/// True if what stops its slip sets it rolling.
+/// True if the body starts to roll when friction stops its slip.
 [[nodiscard]] inline bool rolls(const BodyProperties& body)
 {
     return body.rounding > 0.0 && body.turning != Turning::locked;
 }
 
-/// The state of all bodies. The hot half lies in lanes, one number of every body after the other,
-/// so that a loop over many bodies reads only what it needs and compilers can vectorise it. Slots
-/// are kept in ranges: awake [0, awake), asleep [awake, movable), kinematic [movable, moving),
-/// fixed [moving, size). Angular momentum about the centre (world's frame) is the state and not
-/// angular velocity: that is what a free body keeps.
+/// The state of all bodies. The hot half lies in lanes: each lane holds one number of every body,
+/// one body after the other. So a loop over many bodies reads only what it needs, and compilers can
+/// vectorise it. Slots are kept in ranges: awake [0, awake), asleep [awake, movable), kinematic
+/// [movable, moving), fixed [moving, size). The state is the angular momentum about the centre
+/// (world's frame) and not the angular velocity, as a free body keeps its angular momentum.
 struct Bodies {
     struct Lanes3 {
         std::vector<double> x, y, z;
@@ -108,12 +110,13 @@ struct Bodies {
     Slot movable = 0;
     Slot moving = 0;
 
-    /// All movable bodies awake, in the order of their ids; then the kinematic and the fixed ones.
+    /// Makes all movable bodies awake. The slots have the order of the ids: first the movable
+    /// bodies, then the kinematic and the fixed ones.
     explicit Bodies(const Description& description);
 
     [[nodiscard]] Slot size() const { return static_cast<Slot>(properties.size()); }
     [[nodiscard]] PartId parts_count() const { return static_cast<PartId>(slot_of.size()); }
-    /// The number of parts of the bodies that can be pushed.
+    /// Returns the number of parts of the movable bodies.
     [[nodiscard]] PartId movable_parts() const
     {
         const auto further = std::count_if(slot_of.begin() + size(), slot_of.end(),
@@ -124,7 +127,7 @@ struct Bodies {
     {
         return part < size() ? part : properties[slot_of[part]].id;
     }
-    /// Calls visit(part) for each of a body's parts, by their ids.
+    /// Calls visit(part) for each part of a body, in the order of their ids.
     template <typename Visit>
     void for_parts(BodyId body, Visit visit) const
     {
@@ -137,11 +140,11 @@ struct Bodies {
 
     /// Exchanges two bodies' slots.
     void swap(Slot a, Slot b);
-    /// Moves a body over the border between awake and asleep; returns its new slot.
+    /// Moves a body over the border between awake and asleep. Returns its new slot.
     Slot put_to_sleep(Slot slot);
     Slot wake(Slot slot);
 
-    /// The inverse inertia times a vector, in the world's frame.
+    /// Returns the inverse inertia times a vector, in the world's frame.
     [[nodiscard]] glm::dvec3 apply_inverse_inertia(Slot slot, const glm::dvec3& momentum) const
     {
         const BodyProperties& body = properties[slot];
@@ -161,7 +164,7 @@ struct Bodies {
     {
         return apply_inverse_inertia(slot, angular_momentum.at(slot));
     }
-    /// Returns the energy of moving and turning, J.
+    /// Returns the kinetic energy of translation and rotation, J.
     [[nodiscard]] double kinetic_energy(Slot slot) const;
     /// Returns the angular momentum that belongs to an angular velocity of a body with this
     /// orientation.

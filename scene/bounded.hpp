@@ -12,9 +12,9 @@
 
 namespace hapnet::scene {
 
-/// A list with a bound that takes its memory at construction. Unlike a vector's reserve, that holds
-/// for copies too: a copied world takes no memory in its ticks. Room that was never used is neither
-/// touched nor copied.
+/// A list with a bound that takes its memory at construction. A copy takes the same room at once,
+/// unlike a copy of a vector after reserve(). So a copied world takes no memory in its ticks. Room
+/// that was never used is neither touched nor copied.
 template <typename T>
 class Bounded {
 public:
@@ -46,7 +46,7 @@ public:
         elements_[index] = std::move(elements_.back());
         elements_.pop_back();
     }
-    /// Takes the last one out.
+    /// Removes the last element and returns it.
     T take_last()
     {
         base::ensure(!is_empty());
@@ -79,8 +79,9 @@ private:
     std::vector<T> elements_;
 };
 
-/// Room for what lives no longer than a tick: the same bound, but a copy has the room and not the
-/// elements, so that a snapshot does not pay for them, and an element is used again as it is.
+/// A bounded list for data that live no longer than a tick. A copy has the room but not the
+/// elements, so a snapshot does not pay for them. A new element keeps the value that its memory had
+/// before.
 template <typename T>
 class Scratch {
 public:
@@ -100,7 +101,7 @@ public:
     ~Scratch() = default;
 
     [[nodiscard]] bool is_full() const { return size_ == elements_.capacity(); }
-    /// Adds another element, with whatever value its memory held before.
+    /// Adds an element. It has the value that its memory held before.
     T& add()
     {
         if (elements_.data() + size_ == made()) elements_.emplace_back();
@@ -122,7 +123,8 @@ public:
     [[nodiscard]] std::span<const T> all() const { return {elements_.data(), size_}; }
 
 private:
-    /// The end of those that there are: compared as an address, as a size would be divided out.
+    /// Returns the end of the constructed elements. Compare it as an address: a size would cost a
+    /// division.
     [[nodiscard]] const T* made() const { return std::to_address(elements_.end()); }
 
     std::vector<T> elements_;

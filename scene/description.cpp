@@ -13,7 +13,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Checks one part of a description; keeps the first complaint.
+/// Checks one part of a description and keeps the first error.
 class Check {
 public:
     explicit Check(std::string part) : part_{std::move(part)} {}
@@ -376,7 +376,7 @@ std::uint64_t hash(const Description& description)
     }
     hash.add(std::uint64_t{hands.count});
     hash.add(description.gravity);
-    // Scenes without it keep the hash that they had before there was any.
+    // Scenes without it keep the hash that they have without this member.
     if (hands.friction != 0.0) hash.add(hands.friction);
     constexpr std::uint64_t felt_mark = 0x66656c74;
     for (std::size_t i = 0; i < description.planes.size(); ++i) {

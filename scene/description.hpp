@@ -18,7 +18,8 @@
 
 namespace hapnet::scene {
 
-/// The behaviour of a surface where it touches another. For two that touch see combined().
+/// The behaviour of a surface where it touches another one. For the material of a contact see
+/// combined().
 struct Material {
     double friction = 0.0;    // Coulomb's coefficient, 0..friction_max
     double restitution = 0.0; // 0: no bounce, 1: elastic
@@ -33,7 +34,7 @@ struct Material {
     return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution)};
 }
 
-/// The freedom of a body to rotate: freely, not at all, or about one axis of the world alone.
+/// The axes about which a body can rotate: all, none, or one axis of the world.
 enum class Turning : std::uint8_t { free, locked, about_x, about_y, about_z };
 
 constexpr auto names_of(base::Tag<Turning>)
@@ -41,8 +42,8 @@ constexpr auto names_of(base::Tag<Turning>)
     return base::names("free", "locked", "about-x", "about-y", "about-z");
 }
 
-/// The shape of a body within a box: a sphere has three edges that are equal, a capsule two, and
-/// one that is longer, along which it lies.
+/// The shape of a body within its box. A sphere has three equal edges. A capsule has two equal
+/// edges and a longer one, along which it lies.
 enum class Shape : std::uint8_t { box, sphere, capsule };
 
 constexpr auto names_of(base::Tag<Shape>) { return base::names("box", "sphere", "capsule"); }
@@ -56,8 +57,9 @@ struct LockedAxes {
     friend bool operator==(const LockedAxes&, const LockedAxes&) = default;
 };
 
-/// The motion of a kinematic body to and fro: from its place to `by` from there, and back. It
-/// starts and turns round at rest. It is by * (1 - cos(2 pi t / period)) / 2 from its position.
+/// The motion of a kinematic body to and fro: from its position to the position plus `by`, and
+/// back. It starts and turns round at rest. Its distance from the position is by * (1 - cos(2 pi t
+/// / period)) / 2.
 struct Sway {
     glm::dvec3 by{0.0};      // m
     base::Duration period{}; // 0: it does not sway
@@ -65,8 +67,8 @@ struct Sway {
     friend bool operator==(const Sway&, const Sway&) = default;
 };
 
-/// Dry friction between a hand and what it presses: the hand sticks until the force along the
-/// surface is more than the first share of the force across it, then slides against the second.
+/// Dry friction between a hand and a surface. The hand sticks until the force along the surface
+/// exceeds the first share of the force across it. Then it slides against the second share.
 struct HandFriction {
     double sticking = 0.0;
     double sliding = 0.0; // at most `sticking`
@@ -75,14 +77,15 @@ struct HandFriction {
     friend bool operator==(const HandFriction&, const HandFriction&) = default;
 };
 
-/// Returns the friction of a hand on a surface: the geometric means, as with two bodies.
+/// Returns the friction of a hand on a surface: the geometric means of their coefficients, as with
+/// two bodies.
 [[nodiscard]] inline HandFriction combined(const HandFriction& a, const HandFriction& b)
 {
     return {std::sqrt(a.sticking * b.sticking), std::sqrt(a.sliding * b.sliding)};
 }
 
-/// A stiffness, a damping and coefficients of friction of a hand's spring. Where they are set, they
-/// replace those of all hands; on a body, friction replaces that of its material.
+/// The stiffness, the damping and the coefficients of friction of a hand's spring. Where they are
+/// set, they replace those of all hands. On a body, the friction replaces that of its material.
 struct Feel {
     std::optional<double> stiffness_n_per_m{};
     std::optional<double> damping_ns_per_m{};
@@ -94,7 +97,7 @@ struct Feel {
     friend bool operator==(const Feel&, const Feel&) = default;
 };
 
-/// A further part of a body: a box, a sphere or a capsule in the frame of its first.
+/// A further part of a body: a box, a sphere or a capsule in the frame of the body's first part.
 struct PartDescription {
     Shape shape = Shape::box;
     glm::dvec3 half{0.02};
@@ -104,14 +107,14 @@ struct PartDescription {
     friend bool operator==(const PartDescription&, const PartDescription&) = default;
 };
 
-/// A solid of even density: a box, a sphere or a capsule, or several in one piece. Where parts
-/// overlap, the overlap has the mass of both.
+/// A solid of uniform density: a box, a sphere or a capsule, or several of them in one piece. Where
+/// parts overlap, the overlap has the mass of both.
 struct BodyDescription {
     std::string name;
     bool movable = true;
-    /// A kinematic body is not movable, but it moves: with its velocity and angular velocity for
-    /// ever, or as it sways, until World::drive() or World::move() says otherwise. It pushes and is
-    /// not pushed.
+    /// A kinematic body is not movable by forces, but it moves: with its velocity and angular
+    /// velocity for ever, or as it sways, until World::drive() or World::move() changes its motion.
+    /// It pushes and is not pushed.
     bool kinematic = false;
     Sway sway{};
     Shape shape = Shape::box;
@@ -126,14 +129,16 @@ struct BodyDescription {
     Material material{};
     double drag_ns_per_m = 0.0; // viscous friction on the plane that supports it, tangential
     Feel feel{};                // for every hand on the body; takes precedence over a hand's own
-    /// The body's frame, and so `position` and `orientation`, are those of the first part, which
-    /// `shape` and `half` describe. A world's are of the centre of mass: see frame_of_mass().
+    /// `position` and `orientation` are those of the first part, which `shape` and `half` describe.
+    /// The first part's frame is the body's frame. The position of a body in a World is that of its
+    /// centre of mass: see frame_of_mass().
     std::vector<PartDescription> parts{};
 
     friend bool operator==(const BodyDescription&, const BodyDescription&) = default;
 };
 
-/// A half-space that supports bodies: the work platform, walls. Hands feel it only when it says so.
+/// A half-space that supports bodies: the work platform or a wall. Hands feel it only if `felt` is
+/// set.
 struct PlaneDescription {
     std::string name;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, out of the solid side
@@ -144,8 +149,8 @@ struct PlaneDescription {
     friend bool operator==(const PlaneDescription&, const PlaneDescription&) = default;
 };
 
-/// A field of force in a region of space: a constant force, less what a damper takes, less what a
-/// spring pulls to a point or a line. On a body it acts at the centre.
+/// A field of force in a region of space: a constant force, less the force of a damper, less the
+/// pull of a spring to a point or a line. It acts on a body at its centre.
 struct FieldDescription {
     std::string name;
     base::Position position{};        // the middle of the region, and where the spring pulls to
@@ -161,17 +166,17 @@ struct FieldDescription {
     friend bool operator==(const FieldDescription&, const FieldDescription&) = default;
 };
 
-/// The spheres of the hands (haptic interface points). All have the same values: a spring and a
-/// damper between the sphere and what it touches.
+/// The spheres of the hands (haptic interface points). All have the same values. A spring and a
+/// damper act between a sphere and the surface that it touches.
 struct HandDescription {
     double radius_m = 0.005;
     double stiffness_n_per_m = 500.0;
     double damping_ns_per_m = 2.0;
     double force_max_n = 3.3;    // greatest force of one contact; infinity: not limited
-    double grip_reach_m = 0.005; // how near the surface a hand must be to take hold
-    /// Coulomb's coefficient, 0..friction_max, of a session alone: the scene reads, hashes and
-    /// prints it, and the peer applies it from outside (peer::FingerFriction). The hands of the
-    /// scene itself have the two below.
+    double grip_reach_m = 0.005; // how near the surface a hand must be to grip
+    /// Coulomb's coefficient, 0..friction_max, for sessions only: the scene reads, hashes and
+    /// prints it, and the peer applies it from outside (peer::FingerFriction). The scene itself
+    /// uses the two coefficients below.
     double friction = 0.0;
     std::uint32_t count = 2;                  // 0..hands_max
     double static_friction = 0.0;             // while a hand sticks, 0..friction_max
@@ -180,7 +185,7 @@ struct HandDescription {
     friend bool operator==(const HandDescription&, const HandDescription&) = default;
 };
 
-/// The description of a scene before it is frozen: a value that any code may build, print or
+/// The description of a scene before it is frozen. It is a value that any code may build, print or
 /// compare.
 struct Description {
     std::string name;
@@ -205,8 +210,8 @@ inline constexpr std::uint32_t parts_max = 15; // parts of a body, without the f
 inline constexpr double reach_max_m = 1e3;
 inline constexpr double speed_max_m_per_s = 1e4;
 inline constexpr double size_min_m = 1e-4;
-// A small cube that hits a wall with a corner leaves with its speed over its size: as fast as the
-// smallest body turns when its corners have the greatest speed.
+// A small cube that hits a wall with a corner leaves with a spin of its speed over its size. The
+// limit is that of the smallest body at the greatest speed.
 inline constexpr double turn_max_rad_per_s = speed_max_m_per_s / size_min_m;
 inline constexpr double size_max_m = 1e2;
 inline constexpr double mass_min_kg = 1e-6;
@@ -221,8 +226,8 @@ inline constexpr double gravity_max_m_per_s2 = 1e3;
 inline constexpr base::Duration period_min{std::chrono::milliseconds{10}};
 inline constexpr base::Duration period_max{std::chrono::hours{24}};
 
-/// The distance of a round body's surface from its core, m. The core of a sphere is its centre,
-/// that of a capsule a line. 0 for a box.
+/// Returns the distance of a round body's surface from its core, m. The core of a sphere is its
+/// centre; that of a capsule is a line. 0 for a box.
 [[nodiscard]] double rounding_of(const BodyDescription& body);
 [[nodiscard]] double rounding_of(const PartDescription& part);
 /// Returns the mass of a body with a density in kg/m^3.
@@ -233,23 +238,25 @@ inline constexpr base::Duration period_max{std::chrono::hours{24}};
 [[nodiscard]] HandDescription hand_on(const HandDescription& hands, const Feel& own_hand,
                                       const Feel& body);
 
-/// The friction of a hand, before it meets a surface.
+/// Returns the friction of a hand, before it is combined with that of a surface.
 [[nodiscard]] HandFriction friction_of(const HandDescription& hands, const Feel& own_hand);
 
-/// The friction of a surface to hands: its own to them, else that to bodies.
+/// Returns the friction of a surface to hands: its own coefficients for hands, else those for
+/// bodies.
 [[nodiscard]] HandFriction friction_of(const Material& surface, const Feel& own = {});
 
-/// Says what is wrong with a description: the name of the part and what was expected.
+/// Checks a description. The error names the part that is wrong and what was expected.
 [[nodiscard]] base::Result<void> check(const Description& description);
 
-/// Equal for equal scenes on every machine; peers refuse each other when it differs. Names do not
-/// count.
+/// Returns a hash that is equal for equal scenes on every machine. Peers refuse each other when
+/// their hashes differ. Names do not count.
 [[nodiscard]] std::uint64_t hash(const Description& description);
 
-/// The paper's scene with the constants it leaves open chosen so that softness grows
-/// monotonically with delay: drag >= sqrt(2 k m). The static cube stands where it stops the
-/// moving one at x = 74.7 mm, offset in z so that it leaves the right hand its way. The moving one
-/// slides along x alone: predicted into the static one, it cannot come out beside it.
+/// Returns the scene of the paper. The constants that the paper leaves open are chosen so that
+/// softness grows monotonically with delay: drag >= sqrt(2 k m). The static cube stands where it
+/// stops the moving one at x = 74.7 mm. It is offset in z so that it does not block the right hand.
+/// The moving cube slides along x alone, so a prediction that puts it into the static cube cannot
+/// push it out sideways.
 [[nodiscard]] Description paper_scene();
 
 } // namespace hapnet::scene

@@ -21,7 +21,8 @@ bool is_in_region(const FieldDescription& field, const glm::dvec3& place)
     return off.x <= 0.0 && off.y <= 0.0 && off.z <= 0.0;
 }
 
-/// The part of a vector across the field's line; all of it where it pulls to a point.
+/// Returns the part of a vector across the field's line, or the whole vector if the spring pulls to
+/// a point.
 glm::dvec3 across(const FieldDescription& field, const glm::dvec3& v)
 {
     return field.line ? v - glm::dot(v, *field.line) * *field.line : v;
@@ -51,12 +52,12 @@ glm::dvec3 force_on_body(const FieldDescription& field, const WorldConfig& confi
     const double tick = config.tick;
     const double half = 0.5 * tick;
     const BodyProperties& body = bodies.properties[slot];
-    // With this damping of the velocity halfway, the share of the velocity that the tick leaves is
-    // that of the exponential law.
+    // With this damping of the velocity halfway, the tick reduces the velocity by the factor of the
+    // exponential law.
     const double keeps = base::exp(-field.damping_ns_per_m * tick / body.mass);
     const double damping = (1.0 - keeps) / (1.0 + keeps) * body.mass / half;
-    // Velocity and offset halfway, without the field's force. Each newton of the force moves the
-    // body so that the force becomes smaller by `ease` newtons.
+    // The velocity and offset halfway, without the field's force. Each newton of the force moves
+    // the body so that the force becomes smaller by `ease` newtons.
     const glm::dvec3 fall = half * gravity_on(body, config.gravity);
     const glm::dvec3 velocity = bodies.velocity.at(slot) + fall;
     const glm::dvec3 offset = place - field.position.value + half * velocity;

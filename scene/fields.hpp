@@ -6,16 +6,16 @@
 
 namespace hapnet::scene {
 
-// Fields of force: see FieldDescription. They act from outside, so that every stepper has them.
+// Fields of force: see FieldDescription. They act from outside, so every stepper supports them.
 
-/// The push of a field on a body at the start of a tick, held until its end: that of the implicit
-/// midpoint rule, which neither gains nor loses energy in a spring however stiff; with what the
-/// damping takes as in its exponential law. N.
+/// Returns the force of a field on a body, N, found at the start of a tick and held until its end.
+/// The spring's part follows the implicit midpoint rule, which neither gains nor loses energy
+/// however stiff the spring is. The damping takes as much as in its exponential law.
 [[nodiscard]] glm::dvec3 force_on_body(const FieldDescription& field, const WorldConfig& config,
                                        const Bodies& bodies, Slot slot);
 
-/// Adds the forces on the hands to what they feel: the mean over the tick, in which a hand keeps
-/// its velocity.
+/// Adds the fields' forces on the hands to the forces that the hands feel. Each is the mean over
+/// the tick, in which a hand keeps its velocity.
 void feel_fields(const WorldConfig& config, WorldState& state);
 
 } // namespace hapnet::scene

@@ -59,7 +59,7 @@ std::vector<Solid> solids_of(const BodyDescription& body)
     return solids;
 }
 
-/// Rotations that take the largest products of inertia away, one after the other (Jacobi).
+/// Rotations that remove the largest products of inertia, one after the other (Jacobi).
 class PrincipalAxes {
 public:
     explicit PrincipalAxes(const glm::dmat3& tensor) : tensor_{tensor}
@@ -103,7 +103,7 @@ private:
     glm::dmat3 axes_{1.0};
 };
 
-/// The mass of several parts, in the frame of the first.
+/// The mass of several parts, in the frame of the first one.
 struct Whole {
     glm::dvec3 centre{0.0};
     glm::dmat3 axes{1.0};

@@ -14,7 +14,7 @@ namespace hapnet::scene {
 
 namespace {
 
-// Surfaces nearer than this share of the smallest half edge of the two touch.
+// Surfaces nearer than this share of the smallest half edge of the two count as touching.
 constexpr double touch_share = 2e-6;
 
 OrientedBox box_of(const World& world, BodyId body)
@@ -30,13 +30,13 @@ double radius_of(const World& world, BodyId body)
     return std::sqrt(glm::dot(half, half));
 }
 
-/// One part of a body: of most the body itself.
+/// Returns one part of a body. Most bodies have one part.
 OrientedBox shape_of(const World& world, PartId part)
 {
     return scene::shape_of(world.state().bodies, part);
 }
 
-/// The least separation of two sets of parts.
+/// Returns the least separation of two sets of parts.
 template <typename ForParts, typename Separate>
 Separation least_separation(ForParts for_parts, Separate separate)
 {
@@ -56,7 +56,7 @@ bool is_beyond(const World& world, BodyId body, const glm::dvec3& point, double 
     return glm::dot(way, way) > reach * reach;
 }
 
-/// Contacts in their order, as many as there is room for.
+/// A list of contacts in their order, as many as there is room for.
 class ContactList {
 public:
     explicit ContactList(std::span<Contact> room) : room_{room} {}
@@ -83,7 +83,7 @@ private:
     std::size_t found_ = 0;
 };
 
-/// Finds out whether two touch, and where.
+/// Finds out whether two parts touch, and where.
 class ContactFinder {
 public:
     ContactFinder(const World& world, ContactList& list) : world_{world}, list_{list} {}
@@ -132,8 +132,8 @@ public:
     }
 
 private:
-    /// Sets the place from the points that are at most `touch` apart. Returns false when there are
-    /// none.
+    /// Sets the contact's place from the points that are at most `touch` apart. Returns false when
+    /// there are none.
     static bool set_place(Contact& contact, const Manifold& manifold, double touch)
     {
         glm::dvec3 sum{0.0};
@@ -155,13 +155,13 @@ private:
     ContactList& list_;
 };
 
-/// The contacts of one body, as a stepper knows them.
+/// The contacts of one body, from the data of a stepper.
 class StepperContacts {
 public:
     StepperContacts(const World& world, ContactFinder& finder) : world_{world}, finder_{finder} {}
 
-    /// Adds contacts with bodies of higher ids, and with planes; also those with lower ids when
-    /// `all`.
+    /// Adds contacts with bodies of higher ids, and with planes. If `all`, adds those with bodies
+    /// of lower ids, too.
     void add(BodyId body, bool all) const
     {
         std::visit([&](const auto& stepper) { add(stepper, body, all); }, world_.stepper());
@@ -199,7 +199,8 @@ private:
         });
     }
 
-    /// The one box and what it touches: everything else is fixed and parallel to it.
+    /// Adds the contacts of the stepper's one box. Everything else is fixed and parallel to the
+    /// box.
     template <bool coulomb>
     void add(const OneBoxStepper<coulomb>& stepper, BodyId body, bool all) const
     {
@@ -228,8 +229,8 @@ private:
         });
     }
 
-    /// Calls visit(thing, normal) for what the one box touches, or has just left after a push by
-    /// it; the normal points to the box.
+    /// Calls visit(thing, normal) for each thing that the one box touches, or has pushed and just
+    /// left. The normal points to the box.
     template <typename Visit>
     void for_touching(BodyId box, const glm::dvec3& given, Visit visit) const
     {

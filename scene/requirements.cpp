@@ -14,8 +14,8 @@ namespace hapnet::scene {
 
 namespace {
 
-// Above that many bodies a grid finds neighbours faster than a scan of all: about 64 to 80,
-// measured with packed boxes.
+// The number of bodies above which a grid finds neighbours faster than a scan of all: about 64 to
+// 80, measured with packed boxes.
 constexpr std::size_t scan_max = 64;
 
 /// The counts that the reasons name.
@@ -120,7 +120,7 @@ Requirement require_contact(const Description& description, const Census& census
                                description.hands.count));
 }
 
-/// Where nothing is movable, the steppers that feel planes feel fixed bodies, too.
+/// Where nothing is movable, the steppers whose hands feel planes also make them feel fixed bodies.
 Requirement require_felt_planes(const Description& description, const Census& census)
 {
     if (census.movable == 0 && census.fixed > 0 && description.hands.count > 0) {

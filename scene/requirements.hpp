@@ -22,7 +22,7 @@ enum class Feature : std::uint8_t {
     drag,          // viscous friction
     bodies,        // movable bodies that can touch each other
     sleep,         // bodies at rest cost nothing
-    grid,          // too many bodies to compare each with each
+    grid,          // too many bodies to compare each with all others
     kinematic,     // bodies that move by themselves
     feel,          // bodies or hands with a stiffness or damping of their own
     felt_planes,   // planes that hands feel
@@ -66,16 +66,16 @@ enum class StepperKind : std::uint8_t {
     sliding, // one box that cannot rotate among others parallel to it: exact, event by event
     sliding_coulomb, // as `sliding`, with dry friction
     lone,            // one movable body that can rotate
-    few,             // movable bodies that touch each other; each is compared with each
+    few,             // movable bodies that touch each other; each is compared with all others
     many,            // as `few`, but pairs are found through a grid
 };
 inline constexpr std::size_t stepper_kinds = 6;
 
 [[nodiscard]] std::string_view name_of(StepperKind kind);
-/// The features that a stepper supports.
+/// Returns the features that a stepper supports.
 [[nodiscard]] FeatureSet abilities_of(StepperKind kind);
 
-/// Says if a scene requires a feature, and why or why not.
+/// The need of a scene for a feature: true or false, and why.
 struct Requirement {
     Feature feature = Feature::contact;
     bool is_required = false;
@@ -87,7 +87,7 @@ using Requirements = std::array<Requirement, features>;
 [[nodiscard]] Requirements requirements_of(const Description& description, bool sleeping);
 [[nodiscard]] FeatureSet required_features(const Requirements& needs);
 
-/// The cheapest stepper that has the required features.
+/// Returns the cheapest stepper that has the required features.
 [[nodiscard]] StepperKind cheapest_stepper(FeatureSet needed);
 
 } // namespace hapnet::scene

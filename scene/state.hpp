@@ -24,18 +24,18 @@ struct HandInput {
     bool gripping = false;
 };
 
-/// The action of a hand and the force on it in the last tick.
+/// The contact of a hand and the force on it in the last tick.
 struct HandTouch {
     bool touching = false; // pushed or held a movable body
     bool holding = false;
     BodyId body = 0;                // the movable body that it touched
     base::Force on_body{};          // mean force on that body over the tick
-    base::Force on_hand{};          // mean force on the hand over the tick, by all that it touched
+    base::Force on_hand{};          // mean force on the hand over the tick, by all touched things
     double depth_m = 0.0;           // depth of the deepest contact at the start of the tick
     base::Force on_hand_at_start{}; // force of springs and dampers at the start of the tick
 };
 
-/// The springs of each hand on each body, where they are not all equal; otherwise empty.
+/// The springs of each hand on each body, where the springs are not all equal; otherwise empty.
 class HandFeels {
 public:
     HandFeels() = default;
@@ -55,7 +55,7 @@ public:
 
     /// True if any hand can stick to anything.
     [[nodiscard]] bool any_friction() const { return !friction_of_hands_.empty(); }
-    /// Call it only if any_friction(). The friction of a hand on a body, or on a plane.
+    /// Returns the friction of a hand on a body, or on a plane. Call it only if any_friction().
     [[nodiscard]] HandFriction friction_on_body(std::uint32_t hand, BodyId body) const
     {
         return combined(friction_of_hands_[hand], friction_of_bodies_[body]);
@@ -98,7 +98,7 @@ struct WorldConfig {
     InternalFaces internal_faces{};
 };
 
-/// The further motion of a kinematic body.
+/// The planned motion of a kinematic body.
 struct KinematicScript {
     enum class Kind : std::uint8_t {
         steady, // keeps its present velocity and spin
@@ -110,15 +110,16 @@ struct KinematicScript {
     BodyState target{};
 };
 
-/// Counts of interventions since freeze(), where the plain algorithm would have broken a law.
+/// Counts of interventions since freeze(): cases where the plain algorithm would have broken a
+/// physical law.
 struct Interventions {
-    // Guards: motion was thrown away.
+    // Guards: motion was lost.
     /// An island lost a tenth of its velocities or more; or the box of OneBoxStepper lost a share
     /// of its impulses without a hand on it.
     std::uint64_t islands_limited = 0;
-    std::uint64_t paths_cut = 0;     // a body lost the rest of its way in the tick
-    std::uint64_t budgets_spent = 0; // the work of a tick ended before it was done
-    // Mechanisms: nothing was lost except what a law forbids.
+    std::uint64_t paths_cut = 0;     // a body lost the rest of its path in the tick
+    std::uint64_t budgets_spent = 0; // the work budget of a tick ended before the work was done
+    // Mechanisms: only motion was lost that would break a law.
     std::uint64_t hands_braked = 0;     // a hand's impulse was scaled down so that it stays passive
     std::uint64_t impulses_trimmed = 0; // an island lost less than a tenth of its velocities
     std::uint64_t bounces_limited = 0;  // a bounce was made weaker so that no energy is gained
@@ -145,9 +146,9 @@ struct Interventions {
     }
 };
 
-/// The state that every stepper works on: the bodies, what the hands do, and what they feel.
-/// Everything that changes and that the next tick depends on lies here or in the stepper's own
-/// memory: a copy of both is a snapshot.
+/// The state that every stepper works on: the bodies, the hands' inputs and the forces on the
+/// hands. All state that changes and that the next tick depends on is here or in the stepper's own
+/// memory, so a copy of both is a snapshot.
 struct WorldState {
     Bodies bodies;
     std::array<HandInput, hands_max> hands{};
@@ -164,8 +165,7 @@ struct WorldState {
     Interventions interventions{};
 };
 
-/// The scales of this scene, by which a value counts as small. Every tolerance is a share of one of
-/// them.
+/// The scales of this scene. Every tolerance is a share of one of them.
 struct Scales {
     double tick = 1e-3;  // s
     double size = 0.02;  // m: the smallest half edge of a movable body

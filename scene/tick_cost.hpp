@@ -7,8 +7,8 @@
 namespace hapnet::scene {
 
 /// The work of a tick, in units of bounded cost. freeze() derives how many of each a tick of the
-/// scene may take; a tick counts how many it took. The rest of a tick is a few loops over the awake
-/// bodies and the hands.
+/// scene may take, and a tick counts how many it took. The work that is not counted is a few loops
+/// over the awake bodies and the hands.
 struct TickCost {
     std::uint64_t pairs = 0;    // pairs of bodies, or of a body and a plane, looked at closely
     std::uint64_t contacts = 0; // contacts prepared for the solver

@@ -52,8 +52,8 @@ bool can_turn(Turning turning, const glm::dquat& from, const glm::dquat& to)
     return true;
 }
 
-/// Takes eight bytes at a time: fast enough to be asked for every tick. After MurmurHash3's
-/// finaliser (A. Appleby), public domain.
+/// Hashes eight bytes at a time, which is fast enough for every tick. After MurmurHash3's finaliser
+/// (A. Appleby), public domain.
 class BitHash {
 public:
     void add(std::uint64_t bits)
@@ -230,7 +230,7 @@ std::optional<Refusal> World::apply_impulse(BodyId body, const glm::dvec3& impul
     return std::nullopt;
 }
 
-/// Makes the body take part in the next tick; nothing else about it changes.
+/// Makes the body take part in the next tick. Nothing else about it changes.
 void World::wake(BodyId body)
 {
     std::visit(
@@ -371,7 +371,7 @@ inline void World::step()
 void World::push_by_fields()
 {
     Bodies& bodies = state_.bodies;
-    if (kind_ == StepperKind::flight) state_.touches.fill({}); // this stepper knows no hands
+    if (kind_ == StepperKind::flight) state_.touches.fill({}); // this stepper has no hands
     for (Slot slot = 0; slot < bodies.movable; ++slot) {
         glm::dvec3 force{0.0};
         for (const FieldDescription& field : config_.fields)

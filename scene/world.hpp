@@ -28,73 +28,77 @@ struct FreezeOptions {
     std::optional<StepperKind> stepper{};
 };
 
-/// Why an input was not taken; the world is as it was.
+/// The reason why an input was refused. The world stays as it was.
 enum class Refusal : std::uint8_t { not_finite, out_of_range, no_such_body, no_such_hand };
 inline constexpr std::size_t refusals = 4;
 
 /// The number of refused inputs, by cause.
 using RefusalCounts = std::array<std::uint64_t, refusals>;
 
-/// The stepper that moves a world by ticks. It is chosen when the scene is frozen. Each is a value
-/// with two verbs: step(config, state), and on_body_placed(state, body) after a body was put
-/// somewhere from outside, on_body_shifted(state, body) after it was moved by a little. Steppers
-/// whose bodies sleep have wake(state, body), too. The order is that of StepperKind.
+/// The stepper that moves a world by ticks. It is chosen when the scene is frozen. Each stepper is
+/// a value with the functions step(config, state); on_body_placed(state, body), for after a body
+/// was put elsewhere; and on_body_shifted(state, body), for after a body was moved by a little.
+/// Steppers whose bodies sleep also have wake(state, body). The order is that of StepperKind.
 using Stepper = std::variant<FreeFlightStepper, OneBoxStepper<false>, OneBoxStepper<true>,
                              RigidStepper<BroadPhase::none>, RigidStepper<BroadPhase::all_pairs>,
                              RigidStepper<BroadPhase::grid>>;
 
-/// A scene that runs. It does no I/O, reads no clock, and takes no memory after freeze(): feed it
-/// with set_hand() and push(), advance it with tick(), read the result. An input that is not finite
-/// or out of range is refused and counted, and changes nothing.
+/// A scene that runs. It does no I/O, reads no clock, and takes no memory after freeze(). Set its
+/// inputs with set_hand() and push(), advance it with tick(), and read the result. An input that is
+/// not finite or out of range is refused and counted, and changes nothing.
 ///
-/// A World is a value: copies run on their own. Equal inputs give equal bits with every compiler.
+/// A World is a value: copies run independently. Equal inputs give equal bits with every compiler.
 class World {
 public:
-    /// Fails with what is wrong with the description or the options.
+    /// Makes a world from a description. The error says what is wrong with the description or the
+    /// options.
     [[nodiscard]] static base::Result<World> freeze(const Description& description,
                                                     const FreezeOptions& options = {});
 
-    // Defined in world.cpp: every file that uses a World would compile copies of all steppers.
+    // These are defined in world.cpp. Otherwise every file that uses a World would compile copies
+    // of all steppers.
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
     World(const World&);
     World& operator=(const World&);
 
-    /// Says where a hand is, from the next tick on.
+    /// Sets the place and motion of a hand, from the next tick on.
     std::optional<Refusal> set_hand(std::uint32_t index, const HandInput& input);
-    /// Applies a force to a movable body's centre, held for the next tick; pushes of one tick add
-    /// up.
+    /// Applies a force to a movable body's centre for the next tick. Several pushes before one tick
+    /// add up.
     std::optional<Refusal> push(BodyId body, base::Force force);
-    /// Applies a force to a movable body at a point in the world's frame, held for the next tick;
-    /// pushes of one tick add up. It also turns the body, as far as that can turn. Its torque is
-    /// that about the present centre.
+    /// Applies a force to a movable body at a point in the world's frame for the next tick. Several
+    /// pushes before one tick add up. The force also turns the body, as far as the body can turn.
+    /// Its torque is about the present centre.
     std::optional<Refusal> push(BodyId body, base::Force force, base::Position at);
-    /// A torque in N m, in the world's frame, held for the next tick; those of one tick add up. A
-    /// body that cannot turn about its axis does not.
+    /// Applies a torque in N m, in the world's frame, for the next tick. Several torques before one
+    /// tick add up. A body does not turn about an axis about which it cannot turn.
     std::optional<Refusal> push_torque(BodyId body, const glm::dvec3& torque);
-    /// A blow, in N s, at a point in the world's frame: velocity and angular momentum change at
-    /// once. Refused as out of range if the body were then faster than place() may make it.
+    /// Applies an impulse in N s at a point in the world's frame. The velocity and the angular
+    /// momentum change at once. It is refused as out of range if the body were then faster than
+    /// place() allows.
     std::optional<Refusal> apply_impulse(BodyId body, const glm::dvec3& impulse, base::Position at);
     /// Puts a movable body somewhere and wakes it. Locked coordinates stay as they are; an
     /// orientation that the body cannot have is refused.
     std::optional<Refusal> place(BodyId body, const BodyState& state);
-    /// Puts a movable body at a place with a velocity, as above; orientation and angular velocity
-    /// stay.
+    /// Puts a movable body at a place with a velocity, as above. Its orientation and angular
+    /// velocity stay.
     std::optional<Refusal> place(BodyId body, base::Position position, base::Velocity velocity);
 
-    /// Moves a movable body by a little; hands that hold it, or press on one of its faces, go on
+    /// Moves a movable body by a little. Hands that hold it, or press on one of its faces, go on
     /// doing so. Locked coordinates stay as they are.
     std::optional<Refusal> shift(BodyId body, base::Displacement way);
     /// Moves a body like shift(), and turns it about its centre by `turn` radians (world's frame),
     /// as far as it can turn. Its angular momentum stays.
     std::optional<Refusal> shift(BodyId body, base::Displacement way, const glm::dvec3& turn);
 
-    /// A kinematic body moves on like that from where it is, until it is told otherwise.
+    /// Makes a kinematic body move from where it is with this velocity and angular velocity, until
+    /// its motion is set again.
     std::optional<Refusal> drive(BodyId body, base::Velocity velocity,
                                  const glm::dvec3& angular_velocity);
-    /// A kinematic body comes there by the end of the next tick, on a straight way and by the
-    /// shortest turn, and then goes on with that velocity and angular velocity.
+    /// Makes a kinematic body reach `target` by the end of the next tick, on a straight line and by
+    /// the shortest turn. Then it goes on with the velocity and angular velocity of `target`.
     std::optional<Refusal> move(BodyId body, const BodyState& target);
 
     void tick();
@@ -113,7 +117,8 @@ public:
     [[nodiscard]] const HandTouch& touch(std::uint32_t hand) const { return state_.touches[hand]; }
     [[nodiscard]] const WorldState& state() const { return state_; }
     [[nodiscard]] const WorldConfig& frozen() const { return config_; }
-    /// The cost of the last tick, and the most that a tick of this scene can cost.
+    /// Returns the cost of the last tick. tick_cost_bound() returns the greatest cost of a tick of
+    /// this scene.
     [[nodiscard]] const TickCost& tick_cost() const { return state_.tick_cost; }
     [[nodiscard]] TickCost tick_cost_bound() const;
     [[nodiscard]] StepperKind stepper_kind() const { return kind_; }
@@ -121,20 +126,20 @@ public:
     [[nodiscard]] std::uint64_t ticks() const { return state_.ticks; }
     [[nodiscard]] const RefusalCounts& refused() const { return refused_; }
 
-    /// Everything that the next tick depends on.
+    /// The data that the next tick depends on.
     struct Snapshot {
         WorldState state;
         Stepper stepper;
     };
     [[nodiscard]] Snapshot snapshot() const { return {state_, stepper_}; }
-    /// The snapshot must be of a world frozen from the same description and options. Takes no
-    /// memory.
+    /// Restores a snapshot, which must be of a world frozen from the same description and options.
+    /// Takes no memory.
     void restore(const Snapshot& snapshot);
     /// Takes over the state of another world, which must be frozen from the same description and
     /// options.
     void restore(const World& other);
 
-    /// Equal states, equal hashes: over every bit of every body's state, by id.
+    /// Returns a hash over every bit of every body's state, by id. Equal states have equal hashes.
     [[nodiscard]] std::uint64_t hash() const;
 
 private:

@@ -12,7 +12,7 @@ namespace hapnet::web {
 
 namespace {
 
-/// FNV-1a: only tells one build from another.
+/// FNV-1a. It only distinguishes one build from another.
 std::uint64_t hash_of_all()
 {
     std::uint64_t hash = 0xcbf2'9ce4'8422'2325U;
@@ -65,7 +65,7 @@ Page::Page() : hash_{fmt::format("{:016x}", hash_of_all())}
         if (end == std::string_view::npos) break;
         index_ += rest.substr(0, begin);
         const auto name = rest.substr(begin + mark.size(), end - begin - mark.size());
-        // A page without a file, as in a build without three.js, must not ask for it.
+        // The page must not request a file that the build lacks, as three.js may be.
         if (asset_named(name) != nullptr) index_ += fmt::format("/a/{}/{}", hash_, name);
         rest.remove_prefix(end + mark.size());
     }

@@ -8,7 +8,7 @@
 
 namespace hapnet::web {
 
-/// A file of the page that is compiled in.
+/// A file of the page that is compiled into the program.
 struct Asset {
     std::string_view name; // "app.js", "paint/arrows.js"
     std::string_view bytes;
@@ -21,16 +21,17 @@ struct Asset {
 /// Returns the media type for a file name, by its ending.
 [[nodiscard]] std::string_view media_type(std::string_view name);
 
-/// The page as it is served, and where its files are.
+/// The page as it is served, and the paths of its files.
 class Page {
 public:
     Page();
 
-    /// index.html, in which @@FILE@@ stands for the path of FILE, or for "" without such a file.
+    /// Returns index.html. In the source, @@FILE@@ stands for the path of FILE, or for "" without
+    /// such a file.
     [[nodiscard]] const std::string& index() const { return index_; }
-    /// nullptr: no file is at this path.
+    /// Returns the file at a path; nullptr: there is none.
     [[nodiscard]] const Asset* find(std::string_view path) const;
-    /// A hash of all files together, in hexadecimal digits. It is part of their paths.
+    /// Returns a hash of all files together, in hexadecimal digits. It is part of their paths.
     [[nodiscard]] const std::string& hash() const { return hash_; }
 
 private:

@@ -57,7 +57,8 @@ void Daemon::on_reply(std::string_view line)
 
 void Daemon::tick(base::TimePoint now)
 {
-    // A late answer would be taken for that of the next question, so the connection is made again.
+    // A late reply would be taken for the reply to the next request, so the connection is made
+    // again.
     if (!asked_.empty() && asked_.front().deadline <= now) asking_.lose("it does not answer");
 }
 

@@ -14,12 +14,11 @@
 
 namespace hapnet::web {
 
-/// A running emulator or peer: one connection on which its frames come, and one on which it is
-/// asked.
+/// A running emulator or peer. One connection carries its frames, another one requests and replies.
 class Daemon {
 public:
     using Json = nlohmann::ordered_json;
-    /// Takes the reply, which may be a refusal; an error: there is no reply.
+    /// Receives the reply, which may be a refusal; an error: there is no reply.
     using OnReply = std::function<void(const base::Result<Json>& reply)>;
     struct Handlers {
         std::function<void()> on_attached;
@@ -34,10 +33,10 @@ public:
     Daemon(boost::asio::io_context& io, const std::string& path, std::string every,
            Handlers handlers);
 
-    /// Asks, and hears within `patience`.
+    /// Sends a request. `on_reply` is called within `patience`.
     void ask(const std::string& request, OnReply on_reply);
 
-    /// Call it now and then: gives up what was not answered in time.
+    /// Gives up requests that were not answered in time. Call it regularly.
     void tick(base::TimePoint now);
 
     [[nodiscard]] bool is_attached() const { return asking_.is_open(); }

@@ -52,7 +52,7 @@ void Daemons::tick(base::TimePoint now)
     for (const auto& peer : peers_) {
         if (peer->daemon->is_attached()) ask_peer_to_show(peer);
     }
-    if (is_virtual()) ask_emulator_to_show(); // tells how far virtual time has come
+    if (is_virtual()) ask_emulator_to_show(); // the reply has the present virtual time
 }
 
 void Daemons::know_generation(std::uint64_t generation)
@@ -128,7 +128,7 @@ void Daemons::add_peer(const std::string& path)
     peers_.push_back(std::move(peer));
 }
 
-/// Orders the peers by their ids, as far as these are known.
+/// Sorts the peers by their ids, as far as these are known.
 void Daemons::order_peers()
 {
     std::ranges::stable_sort(peers_, {}, [](const auto& peer) { return peer->state.id(); });

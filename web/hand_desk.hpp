@@ -12,15 +12,16 @@
 
 namespace hapnet::web {
 
-/// Passes the places of the page that holds the hand on to its peer, and tells the peer to let the
-/// hand go when no page holds it any more.
+/// Passes the places from the page that holds the hand on to the hand's peer, and makes the peer
+/// release the hand when no page holds it any more.
 class HandDesk {
 public:
-    /// A peer with this many places unanswered is sent no more places until it answers.
+    /// The greatest number of unanswered places. A peer that has this many is sent no more until it
+    /// answers.
     static constexpr std::size_t asked_max = 8;
 
-    /// Handles a message of a page about the hand. Returns the text to tell that page; empty if
-    /// there is nothing new.
+    /// Handles a message of a page about the hand. Returns the reply to that page; empty if there
+    /// is nothing new.
     [[nodiscard]] std::string on_message(std::uint64_t page, const HandMessage& message,
                                          Daemon& peer, base::TimePoint now);
 
@@ -34,9 +35,9 @@ private:
 
     HandHold hold_;
     bool is_held_ = false;
-    bool has_told_ = false; // the peer was told a place, but no release since then
-    /// Requests without an answer. Each holds a copy, and a daemon that goes takes its copies
-    /// along.
+    bool has_told_ = false; // the peer was sent a place, but no release since then
+    /// Counts unanswered requests. Each request holds a copy, and a daemon that disappears takes
+    /// its copies along.
     std::shared_ptr<char> asked_ = std::make_shared<char>();
 };
 

@@ -113,7 +113,7 @@ void Hub::note(Event event)
 
 void Hub::tell_all(const Viewer::Text& text)
 {
-    const auto viewers = *viewers_; // a copy: a viewer may leave while it is told
+    const auto viewers = *viewers_; // a copy: a viewer may leave during the loop
     for (const auto& [id, viewer] : viewers) viewer.tell(text);
 }
 
@@ -136,7 +136,7 @@ void Hub::tick(base::TimePoint now)
     tell_state(now);
 }
 
-/// Tells all viewers that the live figures begin again.
+/// Tells all viewers that the live figures are cleared.
 void Hub::tell_reset()
 {
     tell_all(shared(fmt::format("{{\"type\":\"reset\",\"at_s\":{:.4f}}}", at_s())));
@@ -182,7 +182,7 @@ std::optional<Membership> Hub::join(Viewer viewer)
                                     {"frame_ms", base::to_seconds(frame_every) * 1e3},
                                     {"state", state()}})));
     viewer.tell(shared(daemons_.feed().history().fine_json()));
-    // While virtual time stands still no other frame comes.
+    // While virtual time stands still no other frame arrives.
     const auto newest = daemons_.feed().newest(at_s(), net::monotonic_now());
     if (daemons_.is_virtual() && newest) viewer.frame(*newest);
     const auto id = next_viewer_++;
@@ -229,8 +229,8 @@ void Hub::answer_emulator(const Json& request, const OnReply& on_reply)
     Daemon* emulator = daemons_.emulator();
     if (emulator == nullptr) return on_reply(error_reply(503, "no emulator is attached"));
     Json asked = request;
-    // None but those that the request brings, which are none: the emulator opens no file for a
-    // page.
+    // The request may only use files that it contains. It contains none, so the emulator opens no
+    // file for a page.
     const bool may_name_files = command == "set" || command == "apply" || command == "diff";
     if (may_name_files) asked["files"] = Json::object();
     emulator->ask(
@@ -345,7 +345,7 @@ void Hub::answer_keep(const Json& request, const OnReply& on_reply)
     });
 }
 
-/// "trap-2": one that nothing was saved under.
+/// Returns a name such as "trap-2" under which nothing has been saved.
 std::string Hub::free_name(const std::string& stem)
 {
     std::string name;
@@ -355,7 +355,7 @@ std::string Hub::free_name(const std::string& stem)
     return name;
 }
 
-/// Makes all daemons save, and tells all viewers of the files.
+/// Makes all daemons save their last seconds, and tells all viewers of the files.
 void Hub::save(const std::string& name, base::Duration last, Saving::OnSaved on_saved)
 {
     std::vector<Daemon*> daemons = daemons_.peers();

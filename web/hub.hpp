@@ -25,17 +25,18 @@
 
 namespace hapnet::web {
 
-/// A page that looks: what is sent to it. The texts are shared by all pages.
+/// A connected page: the functions that send to it. All pages share the texts.
 struct Viewer {
     using Text = std::shared_ptr<const std::string>;
     std::function<void(Text)> tell;
-    /// A live frame without its beginning, which has the page's own numbers.
+    /// Sends a live frame without its beginning, which holds the page's own numbers.
     std::function<void(const std::string& body)> frame;
 };
 
 using Viewers = std::map<std::uint64_t, Viewer>;
 
-/// A place among the viewers, as long as it lives. It may outlive them: connections end last.
+/// A place among the viewers, valid as long as this object lives. It may outlive the viewers:
+/// connections end last.
 class Membership {
 public:
     Membership(std::weak_ptr<Viewers> viewers, std::uint64_t id)
@@ -48,7 +49,7 @@ public:
     Membership(Membership&& other) noexcept
         : viewers_{std::exchange(other.viewers_, {})}, id_{other.id_}
     {}
-    /// Number of the page.
+    /// Returns the number of the page.
     [[nodiscard]] std::uint64_t id() const { return id_; }
     Membership& operator=(Membership&&) = delete;
     Membership(const Membership&) = delete;
@@ -59,8 +60,8 @@ private:
     std::uint64_t id_;
 };
 
-/// Between daemons, stage and pages: passes requests on, and tells every page what has changed.
-/// Knows nothing of HTTP.
+/// Connects daemons, stage and pages: passes requests on, and reports every change to all pages. It
+/// knows nothing of HTTP.
 class Hub {
 public:
     static constexpr base::Duration frame_every{std::chrono::microseconds{16'667}};
@@ -68,24 +69,25 @@ public:
 
     explicit Hub(boost::asio::io_context& io);
 
-    /// Attaches to programs that already run. An empty path means no such program.
+    /// Attaches to running programs. An empty path means no such program.
     void attach(const std::string& emulator, const std::vector<std::string>& peers);
-    /// The stage that pages may use.
+    /// Offers a stage to the pages.
     void offer(Stage::Setup setup, bool begins, bool is_virtual);
-    /// A session in virtual time, whose peers have their sockets beside it.
+    /// Attaches to a session in virtual time. The sockets of its peers are beside its own.
     void attach_lab(const std::string& socket);
 
-    /// Call it every frame_every.
+    /// Call it at intervals of frame_every.
     void tick(base::TimePoint now);
 
     /// Adds a viewer and sends it the state so far. nullopt: there are too many viewers.
     [[nodiscard]] std::optional<Membership> join(Viewer viewer);
     [[nodiscard]] bool is_full() const { return viewers_->size() >= viewers_max; }
 
-    /// A page takes or lets go of the hand, if a peer has a hand that pages move.
+    /// Handles a page's message that moves or releases the hand, if pages may move the hand of some
+    /// peer.
     void hand(std::uint64_t page, const HandMessage& message);
 
-    /// Answers a request that the gate has let in. `path` has no query.
+    /// Answers a request that the gate has admitted. `path` has no query.
     void answer(std::string_view path, const std::string& body, const OnReply& on_reply);
 
 private:
@@ -123,9 +125,9 @@ private:
     std::optional<base::TimePoint> next_state_;
     std::optional<Results> results_;
     Saving saving_;
-    std::uint64_t moves_told_ = 0; // feed.moves() as last told; for virtual time
+    std::uint64_t moves_told_ = 0; // last value of feed.moves() that was sent; for virtual time
     double at_s_told_ = 0.0;
-    int saved_ = 0; // numbers the names of what is saved
+    int saved_ = 0; // number in the names of saved files
     HandDesk hand_;
     MetricsPage metrics_;
 };

@@ -41,7 +41,7 @@ using asio::ip::tcp;
 
 constexpr std::string_view program_name = "hapnet-web";
 constexpr int ports_tried = 20;
-constexpr int niceness = 10; // the loops of the daemons come first
+constexpr int niceness = 10; // the loops of the daemons take precedence
 constexpr std::size_t token_digits_least = 32;
 constexpr std::size_t token_file_bytes_max = 4096;
 
@@ -50,7 +50,7 @@ base::Result<std::string> token_of(const Options& options)
     if (options.token_file.empty()) {
         return fmt::format("{:016x}{:016x}", net::unpredictable_bits(), net::unpredictable_bits());
     }
-    // A volume with secrets has links to them (Kubernetes).
+    // In a volume with secrets the files are links (Kubernetes).
     auto text =
         disk::read_private(options.token_file, {.name = "token file",
                                                 .bytes_max = token_file_bytes_max,
@@ -68,7 +68,7 @@ base::Result<std::string> token_of(const Options& options)
     return text;
 }
 
-/// A socket that listens there; nullopt when the port is taken.
+/// Returns a socket that listens at this address; nullopt when the port is taken.
 std::optional<tcp::acceptor> listening(asio::io_context& io, const tcp::endpoint& at)
 {
     boost::system::error_code error;
@@ -88,7 +88,7 @@ std::optional<tcp::acceptor> listening(asio::io_context& io, const tcp::endpoint
     return acceptor;
 }
 
-/// The chosen port, or the next that is free.
+/// Listens at the chosen port, or at the next free one.
 tcp::acceptor listening_on_loopback(asio::io_context& io, const Options& options)
 {
     const int tries = options.is_port_chosen ? 1 : ports_tried;
@@ -106,8 +106,8 @@ tcp::acceptor listening_on_loopback(asio::io_context& io, const Options& options
                             fmt::format("listen at 127.0.0.1:{}", options.port)};
 }
 
-/// Listens also at ::1, if this machine has it, and at --listen, if that was given. Throws
-/// std::system_error when --listen is not possible.
+/// Also listens at ::1, if this machine has it, and at --listen, if it was given. Throws
+/// std::system_error when it cannot listen at --listen.
 void listen_besides(asio::io_context& io, const Options& options, std::uint16_t port,
                     Server& server)
 {
@@ -158,7 +158,7 @@ Stage::Setup stage_setup(const Options& options)
             .choices = all_choices(std::move(names))};
 }
 
-/// Ticks until a signal comes, and lets the service manager hear of it.
+/// Ticks until a signal arrives, and notifies the service manager.
 class Heart {
 public:
     Heart(asio::io_context& io, Hub& hub, const net::StopSignal& stop, net::ServiceManager& manager)
@@ -211,7 +211,7 @@ base::Result<int> run(const Options& options)
     const std::uint16_t port = acceptor.local_endpoint().port();
     Hub hub{io};
     if (options.stage) hub.offer(stage_setup(options), !options.keeps_stopped, options.is_virtual);
-    setpriority(PRIO_PROCESS, 0, niceness); // this thread only: another one starts children
+    setpriority(PRIO_PROCESS, 0, niceness); // this thread only: another thread starts children
     if (!options.lab.empty()) {
         hub.attach_lab(options.lab);
     } else if (!options.stage) {

@@ -12,8 +12,8 @@
 
 namespace hapnet::web {
 
-/// GET /metrics: the metrics of all daemons as text for Prometheus. The daemons are asked at most
-/// once a second, however many clients scrape.
+/// GET /metrics: the metrics of all daemons as text for Prometheus. The daemons receive a request
+/// at most once a second, however many clients scrape.
 class MetricsPage {
 public:
     static constexpr base::Duration kept_for{std::chrono::seconds{1}};

@@ -76,7 +76,7 @@ void add_options(cli::Command& program, Options& options)
                    cli::into(options.url_file));
 }
 
-/// Refuses options that do not go together.
+/// Refuses options that exclude each other.
 base::Result<void> check(const Options& options)
 {
     const bool attaches = !options.emulator.empty() || !options.peers.empty();

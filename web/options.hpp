@@ -23,7 +23,7 @@ struct Options {
     std::uint16_t port = 8460;
     bool is_port_chosen = false;
     std::vector<std::string> hosts; // further host names that requests may use
-    std::string token_file;         // empty: it makes a token of its own
+    std::string token_file;         // empty: the program makes its own token
     std::string url_file;           // empty: none
     bool is_virtual = false;        // --virtual: the stage begins in virtual time
     bool keeps_stopped = false;     // --stopped: the stage waits for its button

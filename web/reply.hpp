@@ -15,12 +15,12 @@ struct Reply {
     std::string body;
     std::string type = "application/json";
     std::string file{};        // path of a file to send instead of the body
-    std::string attached_as{}; // the name that a browser is to save it under
+    std::string attached_as{}; // the name under which a browser is to save it
 };
 using OnReply = std::function<void(Reply)>;
 
 [[nodiscard]] Reply error_reply(int status, std::string_view error);
-/// {"ok":true,key:value}
+/// Returns {"ok":true,key:value}.
 [[nodiscard]] Reply fine_reply(const char* key, nlohmann::ordered_json value);
 
 /// Returns JSON on one line. Bytes that are not UTF-8 are replaced.

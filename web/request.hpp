@@ -27,8 +27,8 @@ void limit(RequestParser& parser, const RequestLimits& limits);
 /// True if the request asks for a WebSocket.
 [[nodiscard]] bool is_upgrade(const Request& request);
 
-/// Returns the properties that the gate decides by, as views into the request. A header that occurs
-/// twice counts as missing.
+/// Returns the properties by which the gate decides, as views into the request. A header that
+/// occurs twice counts as missing.
 [[nodiscard]] Asked asked_of(const Request& request);
 
 [[nodiscard]] inline std::string_view view(boost::string_view text)

@@ -10,19 +10,19 @@
 
 namespace hapnet::web {
 
-/// The files that sessions and traps have left, which pages may have: of known kinds only, and by
-/// their place in a list, never by a path.
+/// The files of sessions and traps that pages may download. Only known kinds of files are included.
+/// Pages name them by their place in a list, never by a path.
 class Results {
 public:
     static constexpr std::size_t files_max = 10'000;
 
-    /// `out`: the folder that holds all of them.
+    /// `out` is the folder that holds all files.
     explicit Results(std::string out) : out_{std::move(out)} {}
 
-    /// Adds what is new in a folder of `out`, such as "run-1".
+    /// Adds the new files in a folder of `out`, such as "run-1".
     void look_in(const std::string& folder, int run);
 
-    /// The answer to GET /api/files, and to GET /f/N.
+    /// These functions return the answers to GET /api/files and to GET /f/N.
     [[nodiscard]] Reply list() const;
     [[nodiscard]] Reply file(std::string_view path) const;
 

@@ -17,24 +17,24 @@ namespace hapnet::web {
 /// Makes several daemons save their last seconds under one name, and waits until the files exist.
 class Saving {
 public:
-    /// The paths as the daemons name them; an error: none of them has saved anything.
+    /// Receives the paths as the daemons name them. An error: no daemon has saved anything.
     using OnSaved = std::function<void(const base::Result<std::vector<std::string>>& files)>;
 
-    /// A daemon on another machine has its files there: they are not waited for longer.
+    /// The longest wait for the files. The files of a daemon on another machine never appear here.
     static constexpr base::Duration patience{std::chrono::seconds{2}};
 
-    /// Begins to save. A second order meanwhile is refused through `on_saved`.
+    /// Begins to save. A second request meanwhile is refused through `on_saved`.
     void begin(const std::vector<Daemon*>& daemons, const std::string& name, base::Duration last,
                OnSaved on_saved);
 
-    /// Call it now and then.
+    /// Call it regularly.
     void tick(base::TimePoint now);
 
 private:
     struct Pending {
-        std::size_t awaited = 0; // replies that have not come yet
+        std::size_t awaited = 0; // replies that have not arrived yet
         std::vector<std::string> files;
-        std::string refused; // why a daemon saves nothing
+        std::string refused; // the reason why a daemon saves nothing
         OnSaved on_saved;
         std::optional<base::TimePoint> until; // end of the wait for the files
     };

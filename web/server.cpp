@@ -59,12 +59,12 @@ struct Server::State {
     [[nodiscard]] bool admits_post();
 };
 
-/// One browser's connection, until it ends or becomes a WebSocket. Counts as a visitor.
+/// One browser's connection, until it ends or becomes a WebSocket. It counts as a visitor.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(asio::ip::tcp::socket socket, std::shared_ptr<Server::State> state);
 
-    /// Counts as a visitor from now on, and waits for a request.
+    /// Registers as a visitor and waits for a request.
     void begin();
 
 private:
@@ -80,7 +80,7 @@ private:
     void answer_file(const Reply& reply);
     void refuse(const Refusal& refusal);
     void refuse_bytes(const beast::error_code& error);
-    /// `message` is kept until it is sent.
+    /// Sends a message and keeps it until it is sent.
     template <typename Message>
     void send(std::shared_ptr<Message> message);
 
@@ -148,7 +148,7 @@ void Connection::read()
                      });
 }
 
-/// Refuses bytes that are no valid request, and ends the connection.
+/// Answers bytes that are not a valid request with an error, and ends the connection.
 void Connection::refuse_bytes(const beast::error_code& error)
 {
     if (error == http::error::end_of_stream || error == beast::error::timeout ||
@@ -299,7 +299,7 @@ void Server::State::accept(asio::ip::tcp::acceptor& acceptor, const std::shared_
                 std::make_shared<Connection>(std::move(socket), self)->begin();
                 return accept(acceptor, self);
             }
-            // No descriptors, perhaps: not at once again.
+            // There may be no free descriptors. The next attempt waits a moment.
             auto timer = std::make_shared<asio::steady_timer>(parts.io, 100ms);
             timer->async_wait([this, &acceptor, self, timer](beast::error_code) {
                 if (!is_over) accept(acceptor, self);

@@ -16,7 +16,8 @@
 
 namespace hapnet::web {
 
-/// The HTTP server: moves bytes between browsers, the gate and the hub. Every limit is here.
+/// The HTTP server: moves bytes between browsers, the gate and the hub. All limits on connections
+/// are here.
 class Server {
 public:
     struct Limits {
@@ -25,7 +26,7 @@ public:
         int posts_per_second = 40;
     };
 
-    /// Outlive it.
+    /// The parts that the server uses. They must outlive it.
     struct Parts {
         boost::asio::io_context& io;
         Hub& hub;
@@ -38,10 +39,10 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// Accepts those who come to a listening socket.
+    /// Accepts the connections to a listening socket.
     void accept_from(boost::asio::ip::tcp::acceptor acceptor);
 
-    /// Shared with its connections, which may outlive it for a moment.
+    /// The state that the server shares with its connections, which may outlive it for a moment.
     struct State;
 
 private:

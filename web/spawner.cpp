@@ -34,7 +34,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts)
     return pointers;
 }
 
-/// The environment of this program, with its lifeline.
+/// Returns the environment of this program, with its lifeline.
 std::vector<std::string> environment_with(int lifeline)
 {
     const auto name = fmt::format("{}=", net::lifeline_variable);
@@ -45,7 +45,7 @@ std::vector<std::string> environment_with(int lifeline)
     return variables;
 }
 
-/// A process to be, by what it is given.
+/// The data of a process that is to be started.
 struct Image {
     char* const* words;
     char* const* environment;
@@ -54,7 +54,8 @@ struct Image {
     int output; // -1: stdout goes to the log
 };
 
-/// Calls only what is permitted between fork() and exec() of a program with threads.
+/// Becomes the program. It calls only functions that are allowed between fork() and exec() in a
+/// program with threads.
 [[noreturn]] void become(const Image& image)
 {
     setpgid(0, 0);

@@ -18,7 +18,7 @@ namespace hapnet::web {
 /// A command to start.
 struct Command {
     std::vector<std::string> words; // the program first, with its path
-    std::string log;                // takes stderr, and stdout unless it is wanted
+    std::string log;                // receives stderr, and stdout unless that is wanted
     bool wants_output = false;
 };
 
@@ -29,10 +29,10 @@ struct Child {
     int output = -1; // its stdout; -1: not wanted
 };
 
-/// Starts processes from a thread of its own, which keeps the priority that the program was started
-/// with: children inherit that of the thread that starts them, and the server's is low. They are
-/// programs of this project and hold a lifeline (proto/net/stop_signal.hpp): they stop when this
-/// program has ended, whatever ended it.
+/// Starts processes from a thread of its own. Children inherit the priority of the thread that
+/// starts them. This thread keeps the priority with which the program was started, while the
+/// server's is low. The children are programs of this project and hold a lifeline
+/// (proto/net/stop_signal.hpp): they stop when this program has ended, whatever ended it.
 class Spawner {
 public:
     Spawner();
@@ -40,7 +40,7 @@ public:
     Spawner(const Spawner&) = delete;
     Spawner& operator=(const Spawner&) = delete;
 
-    /// Throws std::system_error.
+    /// Starts a process. Throws std::system_error.
     [[nodiscard]] Child start(const Command& command);
 
 private:

@@ -25,12 +25,12 @@ namespace {
 
 using boost::system::error_code;
 
-/// A child that was asked to end, and has not, is killed.
+/// The time after which a child that does not end on request is killed.
 constexpr base::Duration killed_after{std::chrono::seconds{5}};
 constexpr base::Duration between_sessions{std::chrono::milliseconds{500}};
 constexpr std::size_t said_bytes_max = 16384;
 
-/// A new folder for sockets: below $XDG_RUNTIME_DIR, or else /tmp.
+/// Makes a new folder for sockets: below $XDG_RUNTIME_DIR, or else below /tmp.
 std::string socket_folder()
 {
     const char* runtime = std::getenv("XDG_RUNTIME_DIR");
@@ -42,7 +42,7 @@ std::string socket_folder()
     return pattern;
 }
 
-/// The last line of a file that is not empty.
+/// Returns the last line of a file that is not empty.
 std::string last_line(const std::string& file)
 {
     std::ifstream in{file};
@@ -53,14 +53,14 @@ std::string last_line(const std::string& file)
     return last.substr(0, 300);
 }
 
-/// The whole text of a file; empty where there is none.
+/// Returns the whole text of a file; empty where there is none.
 std::string text_of(const std::string& file)
 {
     std::ifstream in{file};
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-/// The exit code of a process, 128 + n after signal n; nothing while it runs.
+/// Returns the exit code of a process, 128 + n after signal n; nullopt while it runs.
 std::optional<int> exit_of(pid_t pid)
 {
     int status = 0;
@@ -210,7 +210,7 @@ void Stage::await_output(const std::shared_ptr<Running>& running)
 {
     running->output->async_read_some(boost::asio::buffer(running->buffer),
                                      [this, running](const error_code& error, std::size_t bytes) {
-                                         // Output of an earlier session comes too late.
+                                         // Output of an earlier session arrives too late.
                                          if (error || !is_child(running)) return;
                                          if (running->said.size() < said_bytes_max) {
                                              running->said.append(running->buffer.data(), bytes);
@@ -220,7 +220,7 @@ void Stage::await_output(const std::shared_ptr<Running>& running)
                                      });
 }
 
-/// The emulator says where it listens; then the peers can be told.
+/// Reads where the emulator listens. Then the peers can be started.
 void Stage::on_output(Running& running)
 {
     if (state_ != State::starting) return;
@@ -236,8 +236,8 @@ void Stage::on_output(Running& running)
 void Stage::on_end(const std::shared_ptr<Running>& running)
 {
     const auto code = exit_of(running->child.pid);
-    // A child that is between fork() and exec() holds what this process closes, so that an event of
-    // a closed descriptor may arrive as that of a new one.
+    // A child between fork() and exec() still holds descriptors that this process has closed. So an
+    // event of a closed descriptor may arrive as that of a new one.
     if (!code) return await_end(running);
     std::erase(children_, running);
     const bool is_asked_for = state_ == State::stopping || state_ == State::failed;
@@ -260,7 +260,7 @@ bool Stage::has_peers() const
     return std::ranges::any_of(children_, [](const auto& one) { return !one->is_emulator; });
 }
 
-/// The emulator of a loop goes on, and has written nothing yet.
+/// Judges the run. In a loop the emulator keeps running and has no statistics yet.
 void Stage::judge()
 {
     last_.reset();

@@ -19,20 +19,20 @@
 
 namespace hapnet::web {
 
-/// Starts an emulator and simulated peers, and stops them: what a page may ask for. The emulator
-/// stays between the sessions of a loop, so that what was set on it holds; peers are new for each.
+/// Starts and stops an emulator and simulated peers at a page's request. The emulator keeps running
+/// between the sessions of a loop, so that its settings remain. The peers are new in each session.
 class Stage {
 public:
     struct Handlers {
-        std::function<void()> on_change; // json() has changed
+        std::function<void()> on_change; // the result of json() has changed
         std::function<void(const std::string&)> on_event;
-        /// The sockets of what was started.
+        /// Reports the sockets of the started programs.
         std::function<void(const std::string& emulator, const std::vector<std::string>& peers)>
             on_daemons;
         std::function<void(int run)> on_run_end; // the files of the run are written
     };
     struct Setup {
-        std::string programs; // the folder of the programs
+        std::string programs; // folder of the programs
         std::string out;      // results: run-1, run-2, ... are made in it
         Choices choices;
     };
@@ -43,14 +43,15 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    /// The error says why not. A stage that plays is refused; restart() stops it first.
+    /// Starts a session. The error says why it cannot. A stage that plays is refused; restart()
+    /// stops it first.
     [[nodiscard]] base::Result<void> start(const Choice& choice);
     void restart(const Choice& choice);
     void stop();
-    /// Sets whether the stage loops; nothing else changes.
+    /// Sets if the stage loops. Nothing else changes.
     void set_loop(bool loops);
 
-    /// Call it now and then.
+    /// Call it regularly.
     void tick(base::TimePoint now);
 
     [[nodiscard]] bool is_idle() const { return children_.empty(); }
@@ -100,7 +101,7 @@ private:
     Spawner spawner_;
     std::string sockets_; // the stage's own folder for sockets
     Choice choice_;
-    std::optional<Choice> next_; // what to start when all children have ended
+    std::optional<Choice> next_; // the choice to start when all children have ended
     State state_ = State::stopped;
     std::string says_ = "press start";
     int run_ = 0;
@@ -109,7 +110,7 @@ private:
     std::vector<std::shared_ptr<Running>> children_;
     std::vector<std::string> peer_sockets_;
     std::optional<base::TimePoint> kill_at_;
-    std::optional<base::TimePoint> begin_at_; // when the next session of the loop begins
+    std::optional<base::TimePoint> begin_at_; // time when the next session of the loop begins
 };
 
 } // namespace hapnet::web

@@ -170,7 +170,7 @@ private:
             });
     }
 
-    /// Says why, once what is being written is out: one thing is written at a time.
+    /// Closes with a reason when the present write is done: only one message is written at a time.
     void close(std::uint16_t code, const char* why)
     {
         if (is_closing_) return;
@@ -192,7 +192,8 @@ private:
         membership_.reset();
     }
 
-    /// It does not read, or makes room for another visitor: nothing more is said.
+    /// Closes at once, without a message: the page does not read, or makes room for another
+    /// visitor.
     void cut()
     {
         leave();

@@ -18,10 +18,9 @@ struct LiveParts {
     Visitors& visitors;
 };
 
-/// Serves live frames to a page over a WebSocket until it disconnects: the page sends the token
-/// first, then acknowledgements of frames. Until the token has come, and always if it is wrong, the
-/// page counts as a visitor. A slow page gets fewer frames; a page that reads nothing is
-/// disconnected.
+/// Serves live frames to a page over a WebSocket until it disconnects. The page sends the token
+/// first, then acknowledgements of frames. A page counts as a visitor until it has sent the right
+/// token. A slow page gets fewer frames; a page that reads nothing is disconnected.
 void view_live(boost::asio::ip::tcp::socket socket, const Request& request, const LiveParts& parts);
 
 } // namespace hapnet::web

@@ -21,7 +21,7 @@ constexpr auto connect_again_after = 200ms;
 Wire::Wire(boost::asio::io_context& io, std::string path, Handlers handlers)
     : path_{std::move(path)}, handlers_{std::move(handlers)}, io_{io}, socket_{io}, timer_{io}
 {
-    connect_after({}); // not at once: the handlers' owner may still be in its constructor
+    connect_after({}); // not at once: the handlers' owner may still be under construction
 }
 
 Wire::~Wire()

@@ -14,14 +14,14 @@
 
 namespace hapnet::web {
 
-/// A connection to a control socket that passes lines both ways. It tries again until a program
-/// answers there.
+/// A connection to a control socket that passes lines both ways. It retries until a program answers
+/// there.
 class Wire {
 public:
     struct Handlers {
         std::function<void()> on_open;
         std::function<void(std::string_view line)> on_line;
-        std::function<void(const std::string& why)> on_lost; // also if connecting failed
+        std::function<void(const std::string& why)> on_lost; // is also called if connecting failed
     };
 
     /// Longest line of a daemon of this project; a longer line breaks the connection.
@@ -35,13 +35,13 @@ public:
 
     /// Sends a line. Without a connection, the line is dropped.
     void send(const std::string& line);
-    /// Breaks the connection; it begins again.
+    /// Breaks the connection and starts a new attempt.
     void lose(const std::string& why);
 
     [[nodiscard]] bool is_open() const { return is_open_; }
 
 private:
-    struct Alive {}; // shows late handlers that the Wire is gone
+    struct Alive {}; // by it late handlers see that the Wire is gone
 
     void connect();
     void connect_after(std::chrono::milliseconds time);
@@ -56,7 +56,7 @@ private:
     boost::asio::steady_timer timer_;
     std::shared_ptr<Alive> alive_ = std::make_shared<Alive>();
     bool is_open_ = false;
-    unsigned generation_ = 0; // counts connections: handlers of older ones do nothing
+    unsigned generation_ = 0; // number of the connection; handlers of older ones do nothing
     std::array<char, std::size_t{64} << 10> buffer_{};
     std::string input_;
     std::string unsent_;

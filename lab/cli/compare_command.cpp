@@ -18,7 +18,7 @@ namespace hapnet::lab {
 
 namespace {
 
-/// The sessions of a folder, and the file that they stand in.
+/// The sessions of a folder, and the file that contains them.
 struct FolderSessions {
     results::Table table;
     std::string path;

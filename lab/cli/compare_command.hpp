@@ -9,8 +9,9 @@
 
 namespace hapnet::lab {
 
-/// The differences between two folders of results, as a table, CSV or JSON. The error: one has no
-/// sessions, or files that its B2SUMS does not match; or they have no sessions in common.
+/// Returns the differences between two folders of results, as a table, CSV or JSON. Fails when a
+/// folder has no sessions, when its B2SUMS does not match its files, or when the folders have no
+/// sessions in common.
 [[nodiscard]] base::Result<std::string> compare_folders(const CompareCommand& command);
 
 } // namespace hapnet::lab

@@ -27,7 +27,7 @@ void write_manifest(const DemoReportCommand& command, const nlohmann::ordered_js
     disk::ResultFile{command.folder + "/manifest.json"}.commit(manifest.dump(2) + '\n');
 }
 
-/// Concludes a demo with --peers or --scene, whose page and table are those of its one session.
+/// Concludes a demo with --peers or --scene. Its page and table are those of its one session.
 base::Result<bool> conclude_circle(const DemoReportCommand& command, const std::string& task,
                                    const results::Circumstances& circumstances)
 {

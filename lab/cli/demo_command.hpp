@@ -7,9 +7,9 @@
 
 namespace hapnet::lab {
 
-/// Reads what scripts/demo.sh has recorded in a folder, prints the table beside the paper's and
-/// writes manifest.json and report.html. True when the demo met its target. Throws
-/// std::system_error when these cannot be written.
+/// Reads the files that scripts/demo.sh has recorded in a folder, prints the table with the paper's
+/// numbers and writes manifest.json and report.html. Returns true when the demo met its target.
+/// Throws std::system_error when these files cannot be written.
 [[nodiscard]] base::Result<bool> conclude_demo(const DemoReportCommand& command);
 
 } // namespace hapnet::lab

@@ -67,7 +67,8 @@ std::string name_of_point(const LoadedExperiment::Part& part)
     return is_name ? part.values.front() : fmt::format("point-{}", part.point + 1);
 }
 
-/// Returns the cells that come before a line's own in a table: they name its point of the axes.
+/// Returns the cells that come before the cells of each row in a table. They name the row's point
+/// of the axes.
 std::vector<results::LeadingCell> leading_cells(const std::vector<experiment::Axis>& axes,
                                                 const LoadedExperiment::Part& part)
 {
@@ -78,8 +79,8 @@ std::vector<results::LeadingCell> leading_cells(const std::vector<experiment::Ax
     return cells;
 }
 
-/// records/[POINT/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed, of people in their
-/// first trial.
+/// Writes records/[POINT/]ALGORITHM-TASK/peer-N.rec of the sessions of the first seed; for people,
+/// of their first trial.
 void write_records(const fs::path& out, const LoadedExperiment::Part& part)
 {
     const experiment::Experiment& experiment = part.experiment;
@@ -104,7 +105,7 @@ void write_records(const fs::path& out, const LoadedExperiment::Part& part)
     }
 }
 
-/// Returns the jobs of a part that the shard takes.
+/// Returns the jobs of a part that belong to the shard.
 std::vector<experiment::Job> jobs_of(const LoadedExperiment::Part& part,
                                      experiment::ShardDeal& deal)
 {
@@ -120,11 +121,11 @@ experiment::ShardDeal deal_of(const LoadedExperiment& experiment, const experime
     return {shard, make_jobs(experiment.parts.front().experiment)};
 }
 
-/// Carries out the jobs of a shard, some parts at a time.
+/// Runs the jobs of a shard, some parts at a time.
 class ShardRun {
 public:
     using Results = std::vector<experiment::JobResult>;
-    /// Takes what came of the jobs of a part.
+    /// Uses the results of the jobs of a part.
     using UseResults = std::function<void(const LoadedExperiment::Part&, const Results&)>;
 
     ShardRun(const LoadedExperiment& experiment, const experiment::Shard& shard,
@@ -144,7 +145,7 @@ public:
 
     [[nodiscard]] std::size_t jobs() const { return total_; }
 
-    /// Carries out all jobs of the shard. Returns false when it was stopped.
+    /// Runs all jobs of the shard. Returns false when it was stopped.
     base::Result<bool> run(const UseResults& use)
     {
         auto deal = deal_of(experiment_, shard_);
@@ -186,7 +187,7 @@ private:
     std::size_t done_ = 0;
 };
 
-/// The findings of an experiment, on their way to a folder.
+/// Collects the findings of an experiment for a folder.
 class ResultFolder {
 public:
     ResultFolder(const LoadedExperiment& experiment, const RunPlace& place)
@@ -215,7 +216,7 @@ public:
         }
     }
 
-    /// Moves all into place. Returns the digest.
+    /// Moves all files into place. Returns the digest.
     std::string finish(const runner::SessionStore::Counts& counts)
     {
         forget_old_checksums();
@@ -255,7 +256,7 @@ public:
     }
 
 private:
-    /// Removes the checksums of an earlier run, which no longer hold once a file is written.
+    /// Removes the checksums of an earlier run, which become invalid as soon as a file is written.
     void forget_old_checksums()
     {
         if (!std::exchange(has_written_, true)) fs::remove(out_ / runner::checksums_name);
@@ -267,7 +268,7 @@ private:
         return !axes.empty() && axes.front().reference.has_value();
     }
 
-    /// True if the results say in which order the algorithms are with each hand.
+    /// True if the results include the order of the algorithms with each hand.
     [[nodiscard]] bool ranks_hands() const
     {
         const auto& axes = experiment_.whole.axes;
@@ -310,7 +311,8 @@ private:
     double start_s_;
 };
 
-/// A manifest without sessions or a plan beside it was written by something else.
+/// Refuses a folder whose manifest was written by another program: it has neither sessions nor a
+/// plan beside it.
 base::Result<void> refuse_foreign(const fs::path& out)
 {
     const bool is_ours = fs::exists(out / "sessions.jsonl") || fs::exists(out / "plan.json");
@@ -325,7 +327,7 @@ std::string stem_of(const experiment::Shard& shard)
     return fmt::format("{}-of-{}", shard.index, shard.count);
 }
 
-/// The files of sessions in a folder, and in its shards/.
+/// Adds the session files in a folder and in its shards/.
 void collect_sessions(const fs::path& folder, std::vector<std::string>& paths)
 {
     if (fs::exists(folder / "sessions.jsonl"))
@@ -336,7 +338,7 @@ void collect_sessions(const fs::path& folder, std::vector<std::string>& paths)
     }
 }
 
-/// The shards that have begun but not finished: "3/16, 7/16".
+/// Returns the shards that have begun but not finished: "3/16, 7/16".
 std::string unfinished_among(const std::vector<std::string>& files)
 {
     std::vector<std::string> shards;

@@ -14,7 +14,7 @@
 
 namespace hapnet::lab {
 
-/// An experiment, whole as it is stated, and in the parts that are played one after the other.
+/// An experiment: the whole as it is stated, and the parts that are played one after the other.
 struct LoadedExperiment {
     struct Part {
         std::size_t point = 0;           // number of the point of the axes that it plays
@@ -36,16 +36,18 @@ struct RunPlace {
     std::string command; // command line, for the manifest
 };
 
-/// Plays what is missing, and writes the results. The exit code, or why it cannot begin.
+/// Plays the sessions that are missing, and writes the results. Returns the exit code, or an error
+/// when it cannot begin.
 [[nodiscard]] base::Result<int> run_whole(const LoadedExperiment& experiment,
                                           const RunPlace& place);
 
-/// Plays the sessions of a shard into shards/I-of-N.jsonl, and leaves I-of-N.done when it has all.
+/// Plays the sessions of a shard into shards/I-of-N.jsonl. Writes I-of-N.done when all are played.
 [[nodiscard]] base::Result<int> run_shard(const LoadedExperiment& experiment,
                                           const experiment::Shard& shard, const RunPlace& place);
 
-/// Writes the results from the sessions that the shards in these folders have played, the first of
-/// which is where the results go. Exit code 1, with the reason on standard error: some are missing.
+/// Writes the results from the sessions that the shards in these folders have played. The results
+/// go to the first folder. Returns exit code 1, with the reason on standard error, if sessions are
+/// missing.
 [[nodiscard]] base::Result<int> merge_shards(const LoadedExperiment& experiment,
                                              const std::vector<std::string>& folders,
                                              const RunPlace& place);

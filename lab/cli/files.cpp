@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A key of a result file and the type of its value, where the file has it.
+/// A key of a result file and the type of its value, if the file has the key.
 struct TypedKey {
     const char* key;
     bool (*is_right)(const Json&);
@@ -48,7 +48,7 @@ bool is_list(const Json& json) { return json.is_array(); }
 bool is_flag(const Json& json) { return json.is_boolean(); }
 bool is_text(const Json& json) { return json.is_string(); }
 
-// The types that the code which reads these files takes for granted.
+// The types that the code which reads these files relies on.
 constexpr std::array analysis_keys{TypedKey{"invalid_because", is_list, "a list"}};
 constexpr std::array emulator_keys{
     TypedKey{"valid", is_flag, "true or false"}, TypedKey{"invalid_because", is_list, "a list"},
@@ -58,8 +58,8 @@ constexpr std::array peer_keys{TypedKey{"algorithm", is_text, "a text"},
                                TypedKey{"task", is_text, "a text"},
                                TypedKey{"others", is_list_of_objects, "a list of objects"}};
 
-/// The JSON files, each with a table of it that older versions wrote as CSV alone. A folder with
-/// the CSV and without the JSON is an old one.
+/// The JSON files, each with a table of it that older versions wrote only as CSV. A folder with the
+/// CSV and without the JSON comes from an older version.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> written_as_csv{
     {{results::tables_name, "table1.csv"},
      {results::tables_name, "limits.csv"},
@@ -76,8 +76,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> written_
      {results::sessions_name, "sessions_by_point.csv"},
      {results::real_time_name, "real_time.csv"}}};
 
-/// Reads the object that a result file holds. The error names the file, and the key whose value has
-/// another type.
+/// Reads the object in a result file. The error names the file, and the key whose value has another
+/// type.
 base::Result<Json> read_result(const std::string& path, std::span<const TypedKey> keys)
 {
     auto json = read_json(path);

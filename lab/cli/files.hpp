@@ -15,28 +15,28 @@
 
 namespace hapnet::lab {
 
-/// The object that a file holds. The error names the file.
+/// Reads the JSON object in a file. The error names the file.
 [[nodiscard]] base::Result<nlohmann::ordered_json> read_json(const std::string& path);
 
-/// Reads a record. Says so on standard error when its end is missing.
+/// Reads a record. Warns on standard error when its end is missing.
 [[nodiscard]] base::Result<record::Record> read_record(const std::string& path);
 
-/// Loads the algorithms that are no part of the program.
+/// Loads the algorithms that are not built into the program.
 [[nodiscard]] base::Result<void> load_own_algorithms(experiment::Experiment& experiment);
 
-/// Creates a folder and those above it; the empty path is the one where this runs. Throws
-/// std::system_error naming the folder.
+/// Creates a folder and its parent folders. An empty path is the current folder. Throws
+/// std::system_error that names the folder.
 void create_folder(const std::string& path);
 
 /// Reads the files of a session over real UDP from a folder. The error names the file that is
 /// missing.
 [[nodiscard]] base::Result<results::SessionFiles> read_session_files(const std::string& folder);
 
-/// The error: the folder has CSV and not the file of that name beside it, results.json,
-/// sessions.json or real_time.json, as an older version of hapnet-lab wrote it.
+/// Fails if the folder has CSV files but no file of that name (results.json, sessions.json or
+/// real_time.json) beside them, as an older version of hapnet-lab wrote it.
 [[nodiscard]] base::Result<void> require_tables(const std::string& folder, std::string_view name);
 
-/// Writes each table as CSV, and all of them into a file of that name. Throws std::system_error.
+/// Writes each table as CSV, and all tables into a file of that name. Throws std::system_error.
 void write_result_tables(const std::string& folder, const std::string& name,
                          const std::vector<results::Table>& tables);
 

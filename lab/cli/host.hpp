@@ -6,7 +6,7 @@
 
 namespace hapnet::lab {
 
-/// The machine that we run on, for manifests.
+/// Describes the machine that the program runs on, for manifests.
 [[nodiscard]] nlohmann::ordered_json host();
 
 } // namespace hapnet::lab

@@ -22,7 +22,7 @@ constexpr const char* import_exit_codes = R"(  0  done
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
-/// "fit", or a factor.
+/// Reads a scale: "fit", or a factor.
 base::Result<std::optional<double>> parse_scale(const std::string& text)
 {
     if (text == "fit") return std::optional<double>{};
@@ -32,7 +32,7 @@ base::Result<std::optional<double>> parse_scale(const std::string& text)
     return std::optional{*value};
 }
 
-/// Seconds of a time.
+/// Returns a reader that stores a time in seconds.
 auto seconds_into(auto& target, base::Time format)
 {
     return cli::into(target, [format](const std::string& text) {
@@ -87,7 +87,7 @@ void add_making(cli::Command& command, hands::ImportRules& rules)
                    cli::into(rules.fit.press_m, base::Quantity{base::length_kind, -0.02, 0.02}));
 }
 
-/// The manifest of a folder; an empty one where there is none.
+/// Returns the manifest of a folder; an empty one where there is none.
 base::Result<hands::Manifest> manifest_in(const fs::path& folder)
 {
     const auto path = (folder / hands::manifest_name).string();

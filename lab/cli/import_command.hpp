@@ -10,12 +10,11 @@
 
 namespace hapnet::lab {
 
-/// Adds `import hands` to the program; its options go to `import`.
+/// Adds `import hands` to the program. Its options are stored in `import`.
 cli::Command& add_import(cli::Command& program, ImportHandsCommand& import);
 
-/// Writes scripts of recorded motion into the folder, and their trial into its manifest. Returns
-/// what was done, in lines. The error: bad input. Throws std::system_error when a file cannot be
-/// written.
+/// Writes scripts of recorded motion into the folder, and adds their trial to its manifest. Returns
+/// a report, in lines. Fails on bad input. Throws std::system_error when a file cannot be written.
 [[nodiscard]] base::Result<std::string> import_files(const ImportHandsCommand& command);
 
 } // namespace hapnet::lab

@@ -72,7 +72,7 @@ constexpr const char* replay_exit_codes =
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
-/// The names of what is built in: "paper, lift, wall".
+/// Returns the names of built-in things: "paper, lift, wall".
 template <typename BuiltIn>
 std::string names_of(std::span<const BuiltIn> all)
 {
@@ -123,7 +123,7 @@ void add_export(cli::Command& command, ExportCommand& exported, bool& as_csv)
         cli::into(exported.rows, cli::named<ExportRows>));
 }
 
-/// Facts that a script knows and hapnet-lab does not.
+/// Adds options for facts that a script knows and hapnet-lab does not.
 void add_circumstances(cli::Command& command, auto& run)
 {
     constexpr double seconds_max = 1e9;
@@ -268,7 +268,7 @@ void add_experiment(cli::Command& command, RunCommand& run, const std::string& w
     command.flag("--quick", "Use the values under [quick] of the experiment: rougher", run.quick);
 }
 
-/// A condition both ways, as a setting of the experiment.
+/// Returns a reader that stores a condition in both directions as a setting of the experiment.
 cli::Take condition_into(std::vector<std::string>& settings, std::string_view key)
 {
     return [&settings, key](const std::string& text) -> base::Result<void> {
@@ -282,7 +282,7 @@ cli::Take condition_into(std::vector<std::string>& settings, std::string_view ke
     };
 }
 
-/// "paused", "max", or a factor.
+/// Reads "paused", "max", or a factor.
 cli::Take pace_into(PlayCommand& play)
 {
     return [&play](const std::string& text) -> base::Result<void> {
@@ -304,7 +304,7 @@ cli::Take pace_into(PlayCommand& play)
     };
 }
 
-/// The name of a built-in algorithm.
+/// Reads the name of a built-in algorithm.
 cli::Take algorithm_into(std::vector<std::string>& algorithms)
 {
     return [&algorithms](const std::string& text) -> base::Result<void> {
@@ -380,7 +380,8 @@ void add_play(cli::Command& command, PlayCommand& play)
                    pace_into(play));
 }
 
-/// Completes the options after the command line was read. Refuses those that do not fit together.
+/// Completes the options after the command line was read. Refuses options that contradict each
+/// other.
 base::Result<void> complete(PlayCommand& play, const cli::Command& command)
 {
     if (!play.record.empty()) {
@@ -498,7 +499,7 @@ void describe_program(cli::Command& program)
     program.require_command();
 }
 
-/// Refuses options of these commands that contradict each other. `command`: that of `exported`.
+/// Refuses options of these commands that contradict each other. `command` is that of `exported`.
 base::Result<void> check(const ReplayCommand& replay, const CompareCommand& compare,
                          const ExportCommand& exported, const cli::Command& command)
 {

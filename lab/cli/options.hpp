@@ -29,7 +29,7 @@ struct AnalyseCommand {
 /// `hapnet-lab play [EXPERIMENT] [--task T3 --algorithm sep ...] [--json | --control SOCKET]`, or
 /// `hapnet-lab play RECORD RECORD --control SOCKET`
 struct PlayCommand {
-    std::string experiment; // file or name of a built-in one; empty: what the options say
+    std::string experiment; // a file or the name of a built-in one; empty: the options alone
     std::string record;     // record of the second peer; `experiment` is then the first's
     std::string task = "P1";
     std::vector<std::string> algorithms; // empty: base
@@ -81,7 +81,7 @@ struct ExplainCommand {
 struct RealTimeCommand {
     std::string folder;
     bool next = false;          // print a plan's next session, and write its files
-    std::uint32_t attempts = 3; // most attempts at a session until one is valid
+    std::uint32_t attempts = 3; // greatest number of attempts at a session until one is valid
     std::string played;         // folder of one played session; empty: all of them
     bool keep_records = false;
     std::string command; // command line, for the manifest

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int plan_format = 1;
 
-/// Reads the members of a plan, each into a variable of its own. The first error stays.
+/// Reads the members of a plan, each into its own variable. Keeps the first error.
 class PlanMembers {
 public:
     PlanMembers(const nlohmann::ordered_json& json, const std::string& path)

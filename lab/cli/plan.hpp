@@ -11,8 +11,8 @@
 
 namespace hapnet::lab {
 
-/// plan.json: an experiment with all its inputs, so that each shard of it, on any machine, plays
-/// sessions of the same experiment.
+/// The contents of plan.json: an experiment with all its inputs, so that each of its shards, on any
+/// machine, plays sessions of the same experiment.
 struct Plan {
     std::string experiment; // the EXPERIMENT given to `hapnet-lab plan`
     experiment::Overrides overrides{};
@@ -23,16 +23,16 @@ struct Plan {
 
 inline constexpr const char* plan_name = "plan.json";
 
-/// The file of the plan that a word names: itself, or in the folder; empty: it names no plan.
+/// Returns the plan file that a word names, as a file or as its folder; empty: it names no plan.
 [[nodiscard]] std::string plan_at(const std::string& word);
 
 [[nodiscard]] base::Result<Plan> read_plan(const std::string& path);
-/// Throws std::system_error naming the file.
+/// Writes a plan to a file. Throws std::system_error that names the file.
 void write_plan(const Plan& plan, const std::string& path);
 
-/// Gives the files that a plan holds, and no other.
+/// Returns an opener that provides the files of a plan, and no others.
 [[nodiscard]] base::OpenFile opener_of(const Plan& plan);
-/// Gives the files of this machine, and keeps them in a plan.
+/// Returns an opener that provides the files of this machine and stores them in a plan.
 [[nodiscard]] base::OpenFile opener_into(Plan& plan);
 
 } // namespace hapnet::lab

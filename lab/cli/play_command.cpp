@@ -35,12 +35,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Virtual time stands still in between, while clients are served: all their frames are of one
-/// time.
+/// The interval of the turns. Virtual time stands still between turns while clients are served, so
+/// all their frames are of the same time.
 constexpr base::Duration turn = 16ms;
-/// The longest time that a turn plays for when it plays as fast as possible.
+/// The longest time that a turn takes when it plays as fast as possible.
 constexpr base::Duration playing_max = 12ms;
-/// The virtual time that such a turn plays between two looks at the clock.
+/// The virtual time that such a turn plays between two checks of the clock.
 constexpr base::Duration played_at_once = 20ms;
 constexpr control::Server::Limits limits{.line_bytes = emulator::request_bytes_max, .answers = 8};
 
@@ -85,7 +85,7 @@ base::Result<experiment::Experiment> experiment_of(const PlayCommand& command)
     return experiment::parse_experiment(text, "play", overrides, net::text_of_file);
 }
 
-/// Plays to the end, as hapnet-lab run does.
+/// Plays to the end, as `hapnet-lab run` does.
 base::Result<int> play_out(const PlayCommand& command, live::Session& session,
                            const experiment::Experiment& experiment)
 {
@@ -122,18 +122,18 @@ base::Result<int> play_out(const PlayCommand& command, live::Session& session,
     return 0;
 }
 
-/// A socket and what is behind it.
+/// A socket and the object that answers it.
 struct Served {
     std::unique_ptr<control::Server> server;
     control::Subject subject;
 };
 
-/// Keeps what is saved in a folder: experiment-1.toml, ...
+/// Stores saved experiments in a folder: experiment-1.toml, ...
 class SavedExperiments {
 public:
     explicit SavedExperiments(std::string folder) : folder_{std::move(folder)} {}
 
-    /// A way without a name goes to a file beside the experiment's, which names it from there.
+    /// A motion without a name is stored in a file beside the experiment's, which refers to it.
     [[nodiscard]] base::Result<std::string> save(experiment::Experiment saved)
     {
         if (folder_.empty()) return base::fail("start it with --out DIR to save experiments");
@@ -205,7 +205,7 @@ int play_live(const PlayCommand& command, Played& session, base::Duration tick)
     return 0;
 }
 
-/// A session that is over.
+/// Plays a recorded session.
 base::Result<int> play_records(const PlayCommand& command)
 {
     const auto a = read_record(command.experiment);

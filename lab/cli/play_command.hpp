@@ -49,7 +49,7 @@ constexpr auto fields_of(base::Tag<PlayReport>)
 }
 
 /// Plays one session in virtual time: to its end, for its numbers, or with a control socket for
-/// clients that watch it, until it is stopped. Returns the exit code. The error: bad input. Throws
+/// clients that watch it, until it is stopped. Returns the exit code. Fails on bad input. Throws
 /// std::system_error when a socket or a file cannot be made.
 [[nodiscard]] base::Result<int> play_session(const PlayCommand& command);
 

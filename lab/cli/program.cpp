@@ -47,7 +47,7 @@ void write_out(std::string_view bytes)
     }
 }
 
-/// Text: names in it may come from a file.
+/// Prints a text. Control characters are made visible, since names in it may come from a file.
 void print(std::string_view text) { write_out(base::visible_lines(text)); }
 
 /// Analyses the records of more than two peers.
@@ -67,7 +67,7 @@ base::Result<int> run_circle(const AnalyseCommand& command)
     return 0;
 }
 
-/// Returns lines that say which peer is A and which is B, of two records that were compared.
+/// Returns lines that name the peers A and B of two compared records.
 std::string sides_text(const record::Record& a, const record::Record& b)
 {
     return fmt::format("A is peer {}, B is peer {}\n\n", a.config.at("peer_id").get<std::int64_t>(),
@@ -91,7 +91,7 @@ base::Result<int> run(const AnalyseCommand& command)
     return 0;
 }
 
-/// Exports the session that the records of both peers have in common.
+/// Exports the session that both peers' records have in common.
 base::Result<int> run_join(const ExportCommand& command)
 {
     const auto a = read_record(command.record);

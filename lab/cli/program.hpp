@@ -6,8 +6,8 @@
 
 namespace hapnet::lab {
 
-/// Runs hapnet-lab. `words` are those of the command line, the program's name first. Returns the
-/// exit code; docs/use and --help list them.
+/// Runs hapnet-lab. `words` are the words of the command line, beginning with the program's name.
+/// Returns the exit code; docs/use and --help list the exit codes.
 int main_program(std::span<char*> words);
 
 } // namespace hapnet::lab

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder itself and those in it, by name.
+/// Returns the folder itself and its subfolders, by name.
 std::vector<fs::path> places_in(const fs::path& root)
 {
     std::vector<fs::path> places;
@@ -42,8 +42,8 @@ std::vector<fs::path> places_in(const fs::path& root)
     return places;
 }
 
-/// The manifests and tables of the folders. Single sessions are shown beside Table 1 and claims
-/// alone; other experiments can have a million of them.
+/// Reads the manifests and tables of the folders. Single sessions are shown only beside Table 1 and
+/// claims; other experiments can have a million of them.
 base::Result<std::vector<results::File>> read_files(const std::vector<fs::path>& places)
 {
     std::vector<results::File> files;
@@ -89,8 +89,9 @@ std::vector<std::string> names_of_files(const std::vector<std::string>& paths)
     return names;
 }
 
-/// Every two of the records: a session of more than two is shown in pairs. `name` tells the session
-/// from others; empty: that of its task. The page will be in `folder`.
+/// Adds every pair of the records: a session of more than two peers is shown in pairs. `name`
+/// distinguishes the session from others; empty: the name of its task. The page will be in
+/// `folder`.
 base::Result<void> add_records(results::Results& results, const std::string& name,
                                const std::vector<std::string>& paths, const fs::path& folder)
 {
@@ -121,7 +122,7 @@ bool are_of_one_session(const std::vector<std::string>& paths)
     return records::analyse_circle(all).has_value();
 }
 
-/// The demo is known by the files of its two tasks.
+/// Adds the demo, which is recognised by the files of its two tasks.
 base::Result<void> add_demo(results::Results& results, const fs::path& root)
 {
     const auto p1 = (root / "p1").string(), t3 = (root / "t3").string();
@@ -134,7 +135,7 @@ base::Result<void> add_demo(results::Results& results, const fs::path& root)
     return {};
 }
 
-/// The page will be in `folder`.
+/// Reads the results in a folder. The page will be in `folder`.
 base::Result<results::Results> results_in(const fs::path& root, const fs::path& folder)
 {
     const auto places = places_in(root);
@@ -150,7 +151,7 @@ base::Result<results::Results> results_in(const fs::path& root, const fs::path& 
     for (const fs::path& place : places) {
         const auto records = records_in(place);
         if (records.size() < 2) continue;
-        // It is not clear which of the records belong together.
+        // With more than two records it is unclear which of them belong together.
         if (records.size() > 2 && !are_of_one_session(records)) continue;
         const auto name = place == root ? "" : place.filename().string();
         const auto added = add_records(*results, name, records, folder);
@@ -178,7 +179,7 @@ fs::path folder_of(const fs::path& file)
     return file.has_parent_path() ? file.parent_path() : fs::path{"."};
 }
 
-/// Returns the path of the page. The error: --out names a folder.
+/// Returns the path of the page. Fails when --out names a folder.
 base::Result<fs::path> page_for(const ReportCommand& command)
 {
     const fs::path first{command.path};
@@ -232,7 +233,7 @@ void say_what_is_replaced(const fs::path& path, std::string_view page)
                                         : fmt::format("a page about {}, not {}", before, now)));
 }
 
-/// Writes the manifest of a folder whose subfolders alone have one.
+/// Writes the manifest of a folder in which only subfolders have one.
 void write_manifest(const results::Results& results, std::string root)
 {
     if (results.runs.empty()) return;

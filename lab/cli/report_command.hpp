@@ -9,10 +9,10 @@
 
 namespace hapnet::lab {
 
-/// Writes report.html and figures/: for a folder into it, for two records beside the first. Says so
-/// on standard error when it replaces a page about something else. Returns the path of the page.
-/// The error: a file cannot be read, or its folder's B2SUMS does not match it. Throws
-/// std::system_error when something cannot be written.
+/// Writes report.html and figures/: for a folder into that folder, for two records beside the first
+/// one. Warns on standard error when it replaces a page about another subject. Returns the path of
+/// the page. Fails when a file cannot be read, or when its folder's B2SUMS does not match it.
+/// Throws std::system_error when something cannot be written.
 [[nodiscard]] base::Result<std::string> write_report(const ReportCommand& command);
 
 } // namespace hapnet::lab

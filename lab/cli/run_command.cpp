@@ -31,9 +31,9 @@ base::Result<std::uint64_t> hash_of_file(const std::string& path)
         [](const std::string& bytes) { return base::Seed{}.stream(bytes).bits(0); });
 }
 
-/// Returns the identity of the playing program: this very build, and the algorithms that are no
-/// part of it. A session that another program has played is not reused. The error names an
-/// algorithm whose file cannot be read.
+/// Returns the identity of the playing program: this very build, and the algorithms that are not
+/// built in. A session that another program has played is not reused. The error names an algorithm
+/// whose file cannot be read.
 base::Result<std::string> program_identity(const LoadedExperiment& experiment)
 {
     std::string identity = fmt::format("{} {:016x}", base::version_line("hapnet-lab"),
@@ -64,7 +64,7 @@ experiment::Overrides overrides_of(const RunCommand& command)
     return overrides;
 }
 
-/// Loads the experiment of a plan; `open` gives the texts of the files that it names.
+/// Loads the experiment of a plan. `open` returns the texts of its files.
 base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open)
 {
     auto whole = load_experiment(plan.experiment, open, plan.overrides);
@@ -87,8 +87,8 @@ base::Result<LoadedExperiment> load(const Plan& plan, const base::OpenFile& open
     return experiment;
 }
 
-/// Runs code of the files of algorithms that are no part of the program: for what is about to play
-/// sessions.
+/// Loads, and so runs, the code of algorithms that are not built in. Call it only when sessions
+/// will be played.
 base::Result<void> load_code(LoadedExperiment& experiment)
 {
     auto loaded = load_own_algorithms(experiment.whole);
@@ -182,7 +182,7 @@ base::Result<int> merge(const MergeCommand& command)
     }
     auto experiment = load_plan(plan);
     if (!experiment) return tl::unexpected{experiment.error()};
-    // Records are made by playing again.
+    // Records are made by playing the sessions again.
     if (experiment->whole.record) {
         if (auto loaded = load_code(*experiment); !loaded) return tl::unexpected{loaded.error()};
     }

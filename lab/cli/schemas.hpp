@@ -9,10 +9,10 @@
 
 namespace hapnet::lab {
 
-/// The schemas of all that the program prints and writes.
+/// Returns the schemas of all documents that the program prints and writes.
 [[nodiscard]] std::vector<cli::DocumentSchema> schemas();
 
-/// The part of them that is written by hand, in docs/formats/schemas.
+/// Returns those schemas that are written by hand, in docs/formats/schemas.
 [[nodiscard]] std::span<const cli::DocumentSchema> written_schemas();
 
 } // namespace hapnet::lab

@@ -13,16 +13,16 @@
 
 namespace hapnet::lab {
 
-/// The records of the peers 1, 2, ... in the folder of a session.
+/// Reads the records of the peers 1, 2, ... in the folder of a session.
 [[nodiscard]] base::Result<std::vector<record::Record>> records_in(const std::string& folder,
                                                                    std::size_t peers);
 
-/// The times of each peer's ticks. The peers were on one machine, which has one clock.
+/// Returns the times of each peer's ticks. The peers ran on one machine, which has one clock.
 [[nodiscard]] std::vector<std::vector<base::Duration>>
 ticks_in(const std::vector<record::Record>& records);
 
-/// Adds the facts about sessions in real time to the manifest.json of a folder. Writes a new one if
-/// there is none, or if the one there is about such sessions alone.
+/// Adds the facts about sessions in real time to the manifest.json of a folder. Writes a new
+/// manifest if there is none, or if the present one is about such sessions alone.
 [[nodiscard]] base::Result<void> note_in_manifest(const std::string& folder,
                                                   nlohmann::ordered_json real_time);
 

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* result_name = "result.json";
 
-/// A session of the plan, and what is known of its attempts.
+/// A session of the plan, and the known facts about its attempts.
 struct Cell {
     const LoadedExperiment::Part* part;
     experiment::SessionJob job;
@@ -99,7 +99,7 @@ base::Result<Sweep> load_sweep(const std::string& folder)
     return sweep;
 }
 
-/// Returns the point of the axes: "hands.stiffness=100N/m"; empty: there are none.
+/// Returns the point of the axes, such as "hands.stiffness=100N/m"; empty: there are no axes.
 std::string point_of(const LoadedExperiment& experiment, const LoadedExperiment::Part& part)
 {
     std::vector<std::string> settings;
@@ -108,7 +108,8 @@ std::string point_of(const LoadedExperiment& experiment, const LoadedExperiment:
     return fmt::format("{}", fmt::join(settings, "; "));
 }
 
-/// One that was tried least often comes first: a busy machine may be idle by then.
+/// Returns the next cell to play. The cell with the fewest attempts comes first: a busy machine may
+/// be idle by then.
 Cell* next_of(std::vector<Cell>& cells, std::uint32_t attempts)
 {
     Cell* next = nullptr;
@@ -124,7 +125,7 @@ std::size_t peers_of(const results::SessionFiles& files)
     return std::max<std::size_t>(files.others.size(), 1) + 1;
 }
 
-/// Returns the metrics of a session in real time. All records are of this session.
+/// Returns the metrics of a session in real time. All records are of that session.
 base::Result<results::PlayedCell> played_in(const std::vector<record::Record>& records)
 {
     std::vector<records::Session> sessions;
@@ -138,7 +139,7 @@ base::Result<results::PlayedCell> played_in(const std::vector<record::Record>& r
     return played;
 }
 
-/// The session on a perfect network, with even ticks.
+/// Returns the session on a perfect network, with even ticks.
 virtual_time::Setting perfect(virtual_time::Setting setting)
 {
     setting.profile = {};

@@ -9,24 +9,24 @@
 
 namespace hapnet::lab {
 
-// The experiment of a plan, session by session in real time: the lab says what is to be played and
-// compares what was played; scripts/real-time.sh starts the programs. A session has a folder
-// cells/NAME/attempt-N. Each throws std::system_error when something cannot be written.
+// The experiment of a plan, session by session in real time. The lab decides which session is
+// played next and compares the played sessions; scripts/real-time.sh starts the programs. A session
+// has a folder cells/NAME/attempt-N. Each function throws std::system_error when something cannot
+// be written.
 
 /// True if sessions of a plan were played in the folder.
 [[nodiscard]] bool is_sweep(const std::string& folder);
 
-/// Writes the files of the next session, and returns a line with its folder, peers, task, seconds,
-/// seed, and words for people; empty: every session is valid or was played as often as it may be.
-/// Files of an attempt that was broken off are removed.
+/// Writes the files of the next session. Returns a line with its folder, peers, task, seconds and
+/// seed, and a description for people. Returns an empty text when every session is valid or has
+/// been attempted as often as allowed. Removes the files of an attempt that was broken off.
 [[nodiscard]] base::Result<std::string> next_session(const RealTimeCommand& command);
 
-/// Plays a session that was played into a folder in virtual time, and writes result.json there.
+/// Plays in virtual time a session that was played into a folder, and writes result.json there.
 /// Returns a line for people.
 [[nodiscard]] base::Result<std::string> compare_session(const RealTimeCommand& command);
 
-/// Writes the tables and the manifest from the sessions that were played so far. Returns a table
-/// for people.
+/// Writes the tables and the manifest from the sessions played so far. Returns a table for people.
 [[nodiscard]] base::Result<std::string> conclude_sweep(const RealTimeCommand& command);
 
 } // namespace hapnet::lab

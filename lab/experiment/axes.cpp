@@ -24,11 +24,11 @@ tl::unexpected<base::Error> refuse_axis(const Axis& axis, std::string_view why)
     return base::fail(fmt::format("axis '{}': {}", axis.key, why));
 }
 
-/// "12.5ms" in its parts.
+/// The parts of a text such as "12.5ms".
 struct NumberWithUnit {
     double number = 0.0;
     std::string_view unit;
-    int decimals = 0; // decimals that were written
+    int decimals = 0; // number of decimals in the text
 };
 
 std::optional<NumberWithUnit> number_with_unit(std::string_view text)
@@ -44,7 +44,7 @@ std::optional<NumberWithUnit> number_with_unit(std::string_view text)
     return parsed;
 }
 
-/// Decimal numbers with a unit from one to another, in steps or not.
+/// The decimal numbers with a unit from one to another, in steps or at any values.
 struct NumberRange {
     double from = 0.0;
     double to = 0.0;
@@ -61,7 +61,7 @@ struct NumberRange {
     {
         return text(from + static_cast<double>(number) * step.value_or(to - from));
     }
-    /// `share` from 0 to 1 of the way.
+    /// Returns the value at a `share`, 0 to 1, of the range.
     [[nodiscard]] std::string at_share(double share) const
     {
         return text(from + share * (to - from));
@@ -80,7 +80,7 @@ private:
     }
 };
 
-/// Enough decimals for ten thousand different values of a width.
+/// Returns enough decimals for ten thousand different values in a range of this width.
 int decimals_for(double width)
 {
     constexpr double values = 1e4;
@@ -125,7 +125,7 @@ base::Result<void> check_form(const Axis& axis)
                              "to = \"200ms\"");
 }
 
-/// All values of an axis, one after the other.
+/// Returns all values of an axis, one after the other.
 base::Result<std::vector<std::string>> listed(const Axis& axis)
 {
     if (!axis.values.empty()) return axis.values;
@@ -166,7 +166,7 @@ base::Result<std::vector<std::string>> drawn(const Axis& axis, const LatinHyperc
     return values;
 }
 
-/// Every value of a further axis after each of the points.
+/// Combines each of the points with every value of a further axis.
 base::Result<std::vector<AxisValues>> crossed(const std::vector<AxisValues>& points,
                                               const std::vector<std::string>& values)
 {

@@ -10,14 +10,15 @@
 
 namespace hapnet::lab::experiment {
 
-/// A point of an experiment with axes: the value of each, in their order.
+/// A point of an experiment with axes: the value of each axis, in the order of the axes.
 using AxisValues = std::vector<std::string>;
 
-/// The points of an experiment in the order of its results: every combination of the values of its
-/// axes, of which the last runs first; or those of its latin hypercube, in which each of n points
-/// has a range's n-th part, or a value of a list, that no other has before all have one. A pure
-/// function of the axes and the hypercube: drawing one axis never shifts another. At most
-/// points_max. The error says which axis has no points and what to write.
+/// Returns the points of an experiment in the order of its results. They are all combinations of
+/// the axes' values, where the last axis varies fastest, or the points of its latin hypercube. A
+/// hypercube of n points divides a range into n parts, and each point gets another part. From a
+/// list, no value recurs before all have been used. The result is a pure function of the axes and
+/// the hypercube: drawing one axis never shifts another. There are at most points_max. The error
+/// names the axis that has no points and what to write.
 [[nodiscard]] base::Result<std::vector<AxisValues>> axis_points(const Experiment& experiment);
 
 } // namespace hapnet::lab::experiment

@@ -75,7 +75,7 @@ private:
     const NamedAlgorithm& algorithm_;
 };
 
-/// True if all hands are off, and away.
+/// True if all hands are released and away from the body.
 bool are_silent(const virtual_time::VirtualWorld& world)
 {
     for (std::size_t side = 0; side < world.sides(); ++side) {
@@ -94,8 +94,8 @@ bool has_ended(const virtual_time::VirtualWorld& world)
     return false;
 }
 
-/// Returns the time from which all hands are silent to the session's end, since the world began;
-/// nullopt: never.
+/// Returns the time from which all hands are silent until the session's end, counted from the
+/// beginning of the world; nullopt: there is none.
 std::optional<base::Duration> silent_from(const virtual_time::Setting& setting)
 {
     using virtual_time::VirtualWorld;

@@ -11,8 +11,8 @@
 
 namespace hapnet::lab::experiment {
 
-/// Conditions under which the claims of docs/results/beat.md are judged: the same between any two
-/// peers, both ways.
+/// Network conditions under which the claims of docs/results/beat.md are judged. They are the same
+/// between any two peers, in both directions.
 struct ClaimCell {
     std::string_view name; // name of the condition in sessions.csv
     std::int64_t delay_ms = 0;
@@ -25,16 +25,16 @@ struct ClaimCell {
 };
 [[nodiscard]] std::span<const ClaimCell> claim_cells();
 
-/// The cell in which silence is tried: delay, jitter and loss at once.
+/// The cell whose sessions end in silence: delay, jitter and loss at once.
 inline constexpr std::string_view settled_cell = "all";
 
-/// The jobs of each algorithm, cell, task and seed, in this order. Then follows, for each algorithm
-/// and seed, a job that measures how far copies are apart after silence.
+/// Returns the jobs of each algorithm, cell, task and seed, in this order. After them comes, for
+/// each algorithm and seed, a job that measures the distance of the copies after silence.
 [[nodiscard]] std::vector<Job> claim_jobs(const Experiment& experiment);
 
-/// The greatest distance between two copies of the body, a given time after all hands let go and
-/// the network became perfect, metres. The session is played twice: the first time finds when that
-/// is.
+/// Returns the greatest distance between two copies of the body, in metres, a given time after all
+/// hands let go and the network became perfect. The session is played twice: the first time finds
+/// the moment when all hands let go.
 [[nodiscard]] base::Result<double> apart_after_silence(const virtual_time::Setting& setting,
                                                        base::Duration after);
 

@@ -11,7 +11,7 @@
 
 namespace hapnet::lab::experiment {
 
-/// Criteria that every program carries with it: a file of scripts/criteria.
+/// Criteria that are built into every program: a file of scripts/criteria.
 struct BuiltInCriteria {
     std::string_view name; // file name without .toml
     std::string_view text;
@@ -20,8 +20,8 @@ struct BuiltInCriteria {
 /// All built-in criteria, by name.
 [[nodiscard]] std::span<const BuiltInCriteria> built_in_criteria();
 
-/// Reads the built-in criteria of that name, or else the file that `open` gives the text of.
-/// "paper" are those that were calibrated on the paper's two numbers.
+/// Reads the built-in criteria of that name, or else the file whose text `open` returns. "paper"
+/// are the criteria that were calibrated on the paper's two numbers.
 [[nodiscard]] base::Result<metrics::Criteria> load_criteria(const std::string& file_or_name,
                                                             const base::OpenFile& open);
 

@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Something that an experiment may ask for and the daemons do not have.
+/// A feature of an experiment that the daemons do not have.
 struct Obstacle {
     bool is_there = false;
     std::string_view what;
@@ -55,7 +55,7 @@ base::Result<std::vector<SessionJob>> daemon_sessions(const Experiment& experime
     std::vector<SessionJob> sessions;
     for (Job& job : make_jobs(experiment)) {
         auto* one = std::get_if<SessionJob>(&job);
-        // The other jobs measure copies after silence, which no emulator can play.
+        // The other jobs measure the copies after silence, which no emulator can play.
         if (one == nullptr) continue;
         if (auto valid = validate(one->spec.setting); !valid) return tl::unexpected{valid.error()};
         one->spec.rows_per_s = 0;

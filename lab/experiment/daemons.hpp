@@ -10,13 +10,13 @@
 
 namespace hapnet::lab::experiment {
 
-// Experiments that the daemons play: the emulator and peers over UDP, in real time.
+// Experiments that the daemons play in real time: the emulator and the peers over UDP.
 
-/// The sessions of an experiment, as jobs. The error says what in it only virtual time can play,
-/// and what to change.
+/// Returns the sessions of an experiment, as jobs. The error names the part of it that only virtual
+/// time can play, and what to change.
 [[nodiscard]] base::Result<std::vector<SessionJob>> daemon_sessions(const Experiment& experiment);
 
-/// A file from which the programs read what a session is.
+/// A file that describes a session to the programs.
 struct ProgramFile {
     std::string name; // algorithm.toml, left.toml, right.toml, scene.toml, profile.toml
     std::string text;

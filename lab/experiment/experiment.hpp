@@ -28,22 +28,22 @@
 
 namespace hapnet::lab::experiment {
 
-/// An algorithm under the name that the results give it.
+/// An algorithm with its name in the results.
 struct NamedAlgorithm {
     std::string name;
     peer::Algorithm algorithm{};
 };
 
-/// The hands of the players that act as A and as B: those of operators or of recorded people.
+/// The hands of the players that act as A and as B: operators' or recorded people's.
 struct Hands {
     device::Operator left{};
     device::Operator right{};
     /// Intended motions of recorded people, instead of a task; nullptr: simulated hands play.
     std::shared_ptr<const hands::Population> people{};
 
-    /// The number of times that each seed is played: once for each of the people's trials.
+    /// Returns the number of times that each seed is played: once for each of the people's trials.
     [[nodiscard]] std::size_t trials() const { return people ? people->trials.size() : 1; }
-    /// nullptr: there are no people.
+    /// Returns the trial; nullptr: there are no people.
     [[nodiscard]] const hands::Trial* trial(std::size_t index) const
     {
         return people ? &people->trials.at(index) : nullptr;
@@ -56,47 +56,48 @@ struct Hands {
     }
 };
 
-/// The hand that follows the script of a recorded person: the nominal one, which does not wander:
-/// the recording does.
+/// Returns the hand that follows the script of a recorded person. It is the nominal hand without
+/// wander, as the recording contains the wander.
 [[nodiscard]] device::Operator hand_of_people();
 
-/// "nominal", or "relaxed/firm" when they differ; of people the name of their folder.
+/// Returns "nominal", or "relaxed/firm" when the two hands differ; for people the name of their
+/// folder.
 [[nodiscard]] std::string name_of(const Hands& hands);
 
-/// A scene under the name that the experiment gives it.
+/// A scene with its name in the experiment.
 struct NamedScene {
     std::string name;
     scene::Description scene{};
 };
 
-/// A recorded way of a hand under the name of its file; empty: the simulated hand plays.
+/// The recorded motion of a hand with the name of its file. Empty: the simulated hand plays.
 struct NamedTrace {
     std::string name;
     std::shared_ptr<const device::HandTrace> trace{};
 };
 
-/// The contents of a file that an experiment names, as a hash.
+/// The name of a file of an experiment, and a hash of its contents.
 struct NamedContents {
     std::string name;
     std::uint64_t hash = 0;
 };
 
-/// A key of the experiment that is varied: over these values, or over a range.
+/// A key of the experiment that is varied, over a list of values or over a range.
 struct Axis {
-    std::string key;                   // "both.delay", as after --set
-    std::vector<std::string> values{}; // as written after the = of --set
+    std::string key;                   // in the form of the option --set: "both.delay"
+    std::vector<std::string> values{}; // in the form of the text after the = of --set
     // A range of numbers with the same unit, "0ms" and "200ms", both ends included.
     std::optional<std::string> from{};
     std::optional<std::string> to{};
     std::optional<std::string> step{}; // step of the values from `from` on; nullopt: any value
-    /// The value that is taken for the truth. The results at the others are compared with those at
-    /// this one.
+    /// The value that counts as the truth. The results at the other values are compared with those
+    /// at this one.
     std::optional<std::string> reference{};
 
     friend bool operator==(const Axis&, const Axis&) = default;
 };
 
-/// Points that are drawn from all axes at once, instead of all combinations of their values.
+/// Points that are drawn on all axes at once, instead of all combinations of the axes' values.
 struct LatinHypercube {
     std::uint32_t points = 0;
     std::uint32_t seed = 1; // seed for drawing the points; the sessions have their own
@@ -104,7 +105,7 @@ struct LatinHypercube {
     friend bool operator==(const LatinHypercube&, const LatinHypercube&) = default;
 };
 
-/// The number of peers that play together, and the one of the experiment's scenes in which they do.
+/// The number of peers that play together, and the scene of the experiment in which they play.
 struct Party {
     std::uint32_t peers = 2;
     std::optional<std::size_t> scene{}; // index in the scenes; nullopt: each task's own scene
@@ -112,9 +113,9 @@ struct Party {
     friend bool operator==(const Party&, const Party&) = default;
 };
 
-/// The range in which a search looks for the level at which half of the sessions fail: a coarse
-/// scan upward from `from` in steps, `to` at most; then levels that count, `resolution` or a
-/// multiple of it apart.
+/// The range in which a search looks for the level at which half of the sessions fail. A coarse
+/// scan goes upward from `from` in steps, to `to` at most. Then levels that count are played,
+/// `resolution` or a multiple of it apart.
 struct SearchRange {
     Impairment impairment{};
     ImpairmentLevel from{};
@@ -125,7 +126,7 @@ struct SearchRange {
     friend bool operator==(const SearchRange&, const SearchRange&) = default;
 };
 
-/// The range of an impairment that is known before.
+/// The range of an impairment that is known at compile time.
 template <Impairment what>
 struct RangeOf : SearchRange {
     RangeOf() : SearchRange{what, {}, {}, {}, {}} {}
@@ -142,8 +143,8 @@ struct SearchRanges {
     friend bool operator==(const SearchRanges&, const SearchRanges&) = default;
 };
 
-/// The check of the limits' sensitivity to the way of measuring: the filters and hands with which
-/// they are searched again. Its table in a text is [convention].
+/// The check of how sensitive the limits are to the method of measuring: the filters and hands with
+/// which they are searched again. Its table in a text is [convention].
 struct Sensitivity {
     std::vector<metrics::FilterOrder> filter_orders{
         metrics::FilterOrder::first, metrics::FilterOrder::second, metrics::FilterOrder::fourth};
@@ -178,14 +179,15 @@ struct Limits {
 /// The ranges in the order of the impairments.
 [[nodiscard]] std::vector<SearchRange> ranges_of(const Limits& limits);
 
-/// Fig. 7: what cubes, hands and forces did over time; the first seed of the first task.
+/// Fig. 7: the motion of cubes and hands, and the forces, over time, for the first seed of the
+/// first task.
 struct Trajectories {
     std::uint32_t rows_per_s = 200;
 
     friend bool operator==(const Trajectories&, const Trajectories&) = default;
 };
 
-/// Quality of service: every delay with every jitter and every loss.
+/// Quality of service: every combination of the delays, jitters and losses.
 struct ImpairmentGrid {
     std::vector<ImpairmentLevel> delays{};
     std::vector<ImpairmentLevel> jitters{};
@@ -194,7 +196,7 @@ struct ImpairmentGrid {
     friend bool operator==(const ImpairmentGrid&, const ImpairmentGrid&) = default;
 };
 
-/// The two numbers of the paper that the criteria are fixed by, with the first algorithm.
+/// The two numbers of the paper that determine the criteria, found with the first algorithm.
 struct Calibration {
     ImpairmentLevel delay{};
     ImpairmentLevel random_loss{};
@@ -202,8 +204,8 @@ struct Calibration {
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
-/// The claims about algorithms beyond the paper's: claim_cells() are the conditions. Tasks, hands
-/// and peers are theirs.
+/// The claims about algorithms that go beyond the paper's. claim_cells() are their conditions.
+/// Their tasks, hands and peers are fixed, too.
 struct Claims {
     /// The number of seeds that a claim needs. The results show whether it had fewer.
     std::uint32_t judging_seeds = 200;
@@ -213,10 +215,11 @@ struct Claims {
 
 using Kind = std::variant<Table1, Limits, Trajectories, ImpairmentGrid, Calibration, Claims>;
 
-/// "table1", "limits", "trajectories", "plane", "calibration", "claims"
+/// Returns the name of a kind: "table1", "limits", "trajectories", "plane", "calibration" or
+/// "claims".
 [[nodiscard]] std::string_view name_of(const Kind& kind);
 
-/// The question of an experiment and its subjects: sessions of every algorithm, task and seed.
+/// The question of an experiment and its subjects: the sessions of every algorithm, task and seed.
 struct Experiment {
     std::string title;
     Kind kind{};
@@ -232,23 +235,25 @@ struct Experiment {
     device::TaskOptions task_options{};
     /// Recorded hands of the players that act as A and as B; empty: there are none.
     std::vector<NamedTrace> replay{};
-    /// Motions that the simulated hands of A and of B intend, instead of the task's; empty: none.
+    /// The motions that the simulated hands of A and of B intend, instead of the task's; empty:
+    /// there are none.
     std::vector<NamedTrace> script{};
     peer::SendPolicy send{};
     peer::Playout playout = peer::Playout::none;
-    /// A session is as long as its own script, and `duration` is that of the longest.
+    /// True if a session is as long as its own script. `duration` is then that of the longest.
     bool is_as_long_as_scripts = false;
     bool energy_limit = false;
     bool keyed = false;    // the players seal their messages
     bool record = false;   // keep records of the first seed's sessions
     emulator::Path path{}; // the conditions that all sessions have in common
-    /// The settings that single links have of their own, whatever is tried on all of them.
+    /// The settings of single links. They take precedence over the conditions that the experiment
+    /// varies.
     std::vector<emulator::PathPatch> links{};
     /// The changes of the network in every session, at times since its first hello.
     std::vector<emulator::Change> timeline{};
     std::vector<Axis> axes{}; // the experiment is repeated at each point of these axes
     std::optional<LatinHypercube> latin_hypercube{};
-    /// Every file that was read for it, by name. No key of the text has them.
+    /// Every file that was read for the experiment, by name. No key of the text holds them.
     std::vector<NamedContents> files{};
 };
 
@@ -256,7 +261,7 @@ struct Experiment {
 /// last 3 s; in a session below 6 s, for its last half.
 [[nodiscard]] base::Duration session_length(double end_s);
 
-/// Every number of peers in every scene.
+/// Returns every combination of a number of peers and a scene.
 [[nodiscard]] std::vector<Party> parties_of(const Experiment& experiment);
 
 } // namespace hapnet::lab::experiment

@@ -23,7 +23,7 @@ using base::Reading;
 constexpr std::int64_t search_levels_max = 1000;
 constexpr base::Count peers_format{2, peer::peers_max};
 
-/// A list of different texts, at least one; or one text alone.
+/// Reads a list of different texts, at least one; or one text alone.
 std::vector<std::string> read_texts(const Node& node, Reading& reading)
 {
     if (const auto* text = std::get_if<std::string>(&node.value)) return {*text};
@@ -36,7 +36,7 @@ std::vector<std::string> read_texts(const Node& node, Reading& reading)
     return texts;
 }
 
-/// True if it can stand in a CSV and in the name of a file.
+/// True if the name can be in a CSV and in the name of a file.
 bool is_plain(std::string_view name)
 {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -226,7 +226,7 @@ std::string TracesFormat::print(const std::vector<NamedTrace>& traces) const
 
 namespace {
 
-/// Recorded people, in the folder that a text names; nullptr when a complaint was made.
+/// Reads recorded people, in the folder that a text names. Returns nullptr after a complaint.
 std::shared_ptr<const hands::Population> read_people(const Node& node, Reading& reading)
 {
     std::string folder;
@@ -243,7 +243,7 @@ std::shared_ptr<const hands::Population> read_people(const Node& node, Reading& 
     return nullptr;
 }
 
-/// The hand that follows people, as a table says.
+/// Reads the hand that follows people from a table.
 std::optional<device::Operator> read_follower(const Node::Table& table, base::Place place,
                                               Reading& reading)
 {

@@ -7,18 +7,18 @@
 
 namespace hapnet::lab::experiment {
 
-// The keys of an experiment's text, by which it is read and printed: docs/formats/experiment.md.
+// The keys of an experiment's text, for reading and printing: docs/formats/experiment.md.
 
 inline constexpr std::uint32_t seeds_max = 1000;
 
-/// The name of a kind; the kind's own keys have their defaults.
+/// The name of a kind. Reading it gives the kind's own keys their defaults.
 struct KindFormat {
     void read(const base::Node& node, Kind& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const Kind& kind) const;
     [[nodiscard]] std::string describe() const;
 };
 
-/// Names of algorithms. The meaning of a user's own name is read elsewhere.
+/// Names of algorithms. The files of a user's own algorithms are read elsewhere.
 struct AlgorithmNames {
     void read(const base::Node& node, std::vector<NamedAlgorithm>& target,
               base::Reading& reading) const;
@@ -26,7 +26,7 @@ struct AlgorithmNames {
     [[nodiscard]] std::string describe() const { return "a list of names, or one name"; }
 };
 
-/// Different tasks, or one.
+/// One task, or a list of different ones.
 struct TaskNames {
     void read(const base::Node& node, std::vector<device::Task>& target,
               base::Reading& reading) const;
@@ -34,7 +34,7 @@ struct TaskNames {
     [[nodiscard]] std::string describe() const;
 };
 
-/// Different tiers that a session may miss, or one.
+/// One tier that a session may miss, or a list of different ones.
 struct TierNames {
     void read(const base::Node& node, std::vector<metrics::Tier>& target,
               base::Reading& reading) const;
@@ -45,7 +45,7 @@ struct TierNames {
     }
 };
 
-/// Different numbers of peers, or one.
+/// One number of peers, or a list of different ones.
 struct PeerCounts {
     void read(const base::Node& node, std::vector<std::uint32_t>& target,
               base::Reading& reading) const;
@@ -53,7 +53,7 @@ struct PeerCounts {
     [[nodiscard]] std::string describe() const;
 };
 
-/// Different scenes, or one: built-in ones by their names, or files.
+/// One scene, or a list of different ones: built-in ones by their names, or files.
 struct SceneNames {
     void read(const base::Node& node, std::vector<NamedScene>& target,
               base::Reading& reading) const;
@@ -75,8 +75,8 @@ struct TracesFormat {
     }
 };
 
-/// One operator for both, or a list of two: A and B; or people: a folder of recorded hands, or a
-/// table with `people = "folder"` and what the hand has that follows them.
+/// One operator for both sides, or a list of two, for A and B. Or people: a folder of recorded
+/// hands, or a table with `people = "folder"` and the properties of the hand that follows them.
 struct HandsFormat {
     void read(const base::Node& node, Hands& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const Hands& hands) const;
@@ -93,7 +93,7 @@ struct AxesFormat {
     [[nodiscard]] std::string describe() const { return "a table, or a list of tables"; }
 };
 
-/// Levels of an impairment, or one.
+/// One level of an impairment, or a list of levels.
 struct LevelsFormat {
     LevelFormat level{};
 
@@ -103,7 +103,7 @@ struct LevelsFormat {
     [[nodiscard]] std::string describe() const { return level.describe() + ", or a list"; }
 };
 
-/// Complains of a range that cannot be searched.
+/// Reports an error if a range cannot be searched.
 void check(const SearchRange& range, base::Place place, base::Reading& reading);
 
 /// A range that can be searched.
@@ -220,7 +220,8 @@ constexpr auto fields_of(base::Tag<Claims> /*struct*/)
                               "many played"));
 }
 
-/// True if the keys of a kind stand in a table of its name, and not among those of the experiment.
+/// True if the keys of a kind are in a table of its own name, and not among those of the
+/// experiment.
 template <typename OneKind>
 inline constexpr bool has_own_table =
     std::is_same_v<OneKind, ImpairmentGrid> || std::is_same_v<OneKind, Calibration>;
@@ -252,7 +253,7 @@ constexpr auto fields_of(base::Tag<LatinHypercube> /*struct*/)
                                     "by which they are drawn"));
 }
 
-/// A session's length, or "script", which reads as 0 until the scripts are known.
+/// A session's length, or "script", which is read as 0 until the scripts are known.
 struct DurationFormat {
     void read(const base::Node& node, base::Duration& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(base::Duration value) const { return time().print(value); }
@@ -319,7 +320,7 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "points drawn from all axes, instead of every combination"));
 }
 
-/// The experiment of a text that names only a kind and tasks.
+/// Returns the experiment of a text that names only a kind and tasks.
 [[nodiscard]] Experiment usual_experiment();
 
 } // namespace hapnet::lab::experiment

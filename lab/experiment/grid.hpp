@@ -15,11 +15,11 @@ struct GridPoint {
     ImpairmentLevel loss{};
 };
 
-/// All points of the grid: loss runs first, then jitter, then delay.
+/// Returns all points of the grid. Loss varies fastest, then jitter, then delay.
 [[nodiscard]] std::vector<GridPoint> grid_points(const ImpairmentGrid& plane);
 
-/// The conditions of a point. The mean delay is `delay`, or the jitter where that is more: nothing
-/// leaves before it came.
+/// Returns the conditions of a point. The mean delay is `delay`, or the jitter if that is greater,
+/// since no message can arrive before it was sent.
 [[nodiscard]] emulator::Path make_path(const emulator::Path& ground, const GridPoint& point);
 
 } // namespace hapnet::lab::experiment

@@ -21,7 +21,8 @@ base::Duration duration_of(ImpairmentLevel level)
     return std::chrono::microseconds{level.thousandths};
 }
 
-/// Rounded to 0.001 %: a share typed with at most three decimals is exact.
+/// Returns a level as a probability, rounded to 0.001 %. A share with at most three decimals is
+/// exact.
 base::Probability share_of(ImpairmentLevel level)
 {
     const double fraction = static_cast<double>(level.thousandths) / (100.0 * thousand);
@@ -50,7 +51,7 @@ void read_share_level(const base::Node& node, ImpairmentLevel& target, base::Rea
     target = level;
 }
 
-/// The format of bursts and intervals, which are whole numbers.
+/// Returns the format of bursts and intervals, which are whole numbers.
 base::Count count_format(Impairment impairment)
 {
     return {0, impairment == Impairment::interval ? peer::SendPolicy::every_max : burst_period};
@@ -64,7 +65,8 @@ void read_count_level(const base::Node& node, const base::Count& format, Impairm
     target = {static_cast<std::int64_t>(count) * thousand};
 }
 
-/// A loss adds to what is there; a delay, and a jitter with its mean, stand in its place.
+/// Applies an impairment. A loss is added to the present losses. A delay, or a jitter with its
+/// mean, replaces the present delay.
 void impair(emulator::Conditions& conditions, Impairment impairment, ImpairmentLevel level,
             emulator::Order order)
 {

@@ -17,8 +17,8 @@
 
 namespace hapnet::lab::experiment {
 
-/// An impairment that a search makes worse and worse: one of Fig. 6 of the paper, or the interval
-/// between a player's messages. A longer interval needs less of the network's rate.
+/// An impairment that a search increases: one of Fig. 6 of the paper, or the interval between a
+/// player's messages. A longer interval needs less of the network's rate.
 enum class Impairment : std::uint8_t { delay, jitter, random_loss, burst_loss, interval };
 inline constexpr std::array impairments{Impairment::delay, Impairment::jitter,
                                         Impairment::random_loss, Impairment::burst_loss,
@@ -30,23 +30,23 @@ constexpr auto names_of(base::Tag<Impairment> /*enum*/)
 }
 using base::name_of;
 
-/// The unit of an impairment's levels: "ms", "percent", "of_100" (messages lost in a row of every
-/// 100) or "ticks" (from one message to the next).
+/// Returns the unit of an impairment's levels: "ms", "percent", "of_100" (messages lost in a row of
+/// every 100) or "ticks" (from one message to the next).
 [[nodiscard]] std::string_view unit_of(Impairment impairment);
 
-/// The amount of an impairment, in thousandths of its unit: a whole number, so that a search visits
-/// the same levels on every machine. Not negative.
+/// The amount of an impairment, in thousandths of its unit. It is a whole number, so that a search
+/// visits the same levels on every machine. Not negative.
 struct ImpairmentLevel {
     std::int64_t thousandths = 0;
 
     friend constexpr auto operator<=>(const ImpairmentLevel&, const ImpairmentLevel&) = default;
 };
 
-/// The level as a number of its unit: "160", "4.5".
+/// Returns the level as a number in its unit: "160", "4.5".
 [[nodiscard]] std::string to_text(ImpairmentLevel level);
 [[nodiscard]] double in_units(ImpairmentLevel level);
 
-/// A level as it is written: "160ms", "93%", or a whole number of messages or ticks.
+/// The text of a level: "160ms", "93%", or a whole number of messages or ticks.
 struct LevelFormat {
     Impairment impairment{};
 
@@ -55,10 +55,10 @@ struct LevelFormat {
     [[nodiscard]] std::string describe() const;
 };
 
-/// Returns the path `ground` with an impairment of this level, equal in both directions.
-/// ImpairmentLevel 0 leaves `ground` as it is. Jitter of J is uniform from 0 to 2 J, of mean J,
-/// each datagram on its own. Datagrams overtake one another unless `order` prevents it. The
-/// interval leaves every path as it is.
+/// Returns the path `ground` with an impairment of this level, equal in both directions. Level 0
+/// leaves `ground` as it is. Jitter of J is uniform from 0 to 2 J, with mean J, drawn for each
+/// datagram on its own. Datagrams overtake one another unless `order` prevents it. The interval
+/// leaves every path as it is.
 [[nodiscard]] emulator::Path impaired(const emulator::Path& ground, Impairment impairment,
                                       ImpairmentLevel level,
                                       emulator::Order order = emulator::Order::free);

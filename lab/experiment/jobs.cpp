@@ -28,7 +28,7 @@ struct Seeds {
     std::uint32_t count = 1;
 };
 
-/// True if the network draws lots: all but a constant delay may.
+/// True if the network may draw random numbers: only a constant delay never does.
 bool has_chance(const emulator::Path& path)
 {
     emulator::Path delayed;
@@ -63,7 +63,7 @@ private:
     void add_seeds(SessionCase one, std::size_t algorithm, const emulator::Path& path,
                    std::uint32_t rows_per_s_of_first_seed) const
     {
-        // P1 is a prescribed path: without lots every seed gives the same bits.
+        // P1 has a prescribed path. Without random draws every seed gives the same bits.
         const bool is_one =
             one.task == device::Task::p1 && !has_chance(path) && experiment.links.empty();
         for (one.trial = 0; one.trial < one.hands.trials(); ++one.trial) {
@@ -148,8 +148,8 @@ private:
     }
 };
 
-/// Returns the reference for a session's scores. The one shared world is played where stiffness is
-/// measured.
+/// Returns the reference for a session's scores. The session in one shared world is played only
+/// where stiffness is measured.
 base::Result<metrics::Metrics> reference_of(const SessionSpec& spec, const PlaySession& play)
 {
     auto perfect = play(perfect_twin(spec));
@@ -160,7 +160,7 @@ base::Result<metrics::Metrics> reference_of(const SessionSpec& spec, const PlayS
     return make_reference(std::move(perfect->metrics), one_world->metrics);
 }
 
-/// One search: plays sessions as they are asked for, and keeps what it has scored.
+/// One search: plays sessions on demand, and keeps their scores.
 class LevelPlayer {
 public:
     LevelPlayer(const Experiment& experiment, SessionCase session, Impairment impairment,
@@ -175,7 +175,7 @@ public:
         session_.seed = seed;
         const auto order = std::get<Limits>(experiment_.kind).jitter_order;
         const auto path = impaired(experiment_.path, impairment_, level, order);
-        // The cost of fewer messages counts: the reference sends as the experiment says.
+        // The effect of fewer messages counts, so the reference sends as the experiment states.
         const auto unthinned = make_session_spec(experiment_, session_, path);
         auto spec = unthinned;
         for (auto& player : spec.setting.players)
@@ -200,13 +200,13 @@ private:
     Sessions scores_;
 };
 
-/// The demand on a session, which fails if it is not at least of the tier.
+/// The demand on a session. The session fails if it is below the tier.
 struct Demand {
     const metrics::Criteria& criteria;
     metrics::Tier tier = metrics::Tier::usable;
 };
 
-/// Looks for the levels that count, and says which seeds fail at them.
+/// Searches the levels that count. Returns which seeds fail at them.
 base::Result<std::vector<metrics::LevelOutcome>>
 searched(LevelPlayer& player, const SearchRange& range, Seeds seeds, const Demand& demand)
 {
@@ -241,7 +241,7 @@ searched(LevelPlayer& player, const SearchRange& range, Seeds seeds, const Deman
     return outcomes;
 }
 
-/// All that was played for a search; `outcomes` are those of each tier.
+/// Returns all sessions that were played for a search. `outcomes` are those of each tier.
 std::vector<CurvePoint> curve_of(const LevelPlayer& player,
                                  std::span<const std::vector<metrics::LevelOutcome>> outcomes,
                                  const metrics::Criteria& criteria)

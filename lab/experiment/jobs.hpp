@@ -14,8 +14,8 @@
 
 namespace hapnet::lab::experiment {
 
-// An experiment in jobs that do not depend on one another: each finds the same on any thread and in
-// any order.
+// An experiment divided into jobs that do not depend on one another. Each job gives the same result
+// on any thread and in any order.
 
 /// One session and the reference for its scores.
 struct SessionJob {
@@ -34,7 +34,7 @@ struct SearchJob {
     Party party{};
 };
 
-/// The search for one limit with these hands, once by each order of the filter.
+/// The search for one limit with these hands, once for each order of the filter.
 struct SensitivityJob {
     std::size_t algorithm = 0;
     device::Task task{};
@@ -69,14 +69,14 @@ struct CurvePoint {
     metrics::Tier tier{};
 };
 
-/// The outcomes of the levels that count (levels in the impairment's unit, ascending), for each
-/// tier of the experiment in their order, and all sessions.
+/// The result of a search: for each tier of the experiment, in order, the outcomes of the levels
+/// that count (levels in the impairment's unit, ascending); and all sessions.
 struct SearchResult {
     std::vector<std::vector<metrics::LevelOutcome>> outcomes{};
     std::vector<CurvePoint> curve{}; // ascending in level, then seed
 };
 
-/// The outcomes by the filter orders of the sensitivity check, in their order.
+/// The outcomes for each filter order of the sensitivity check, in the order of the filter orders.
 struct SensitivityResult {
     std::vector<std::vector<metrics::LevelOutcome>> outcomes{};
 };
@@ -87,7 +87,7 @@ struct SilenceResult {
 
 using JobResult = std::variant<SessionResult, SearchResult, SensitivityResult, SilenceResult>;
 
-/// Carries out one job, playing by `play` what it needs. An error of `play` is passed on.
+/// Runs one job, with `play` for its sessions. Returns the error of `play` if it fails.
 [[nodiscard]] base::Result<JobResult> run_job(const Job& job, const Experiment& experiment,
                                               const metrics::Criteria& criteria,
                                               const PlaySession& play);

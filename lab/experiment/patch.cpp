@@ -14,7 +14,8 @@ namespace {
 using base::Entry;
 using base::Node;
 
-/// Deeper than any key of an experiment, and no text can exhaust the stack.
+/// The greatest depth of a key. No key of an experiment is that deep, and at this depth no text can
+/// exhaust the stack.
 constexpr std::size_t key_parts_max = 8;
 
 Node::Table::iterator entry_of(Node::Table& table, std::string_view key)
@@ -23,11 +24,11 @@ Node::Table::iterator entry_of(Node::Table& table, std::string_view key)
                         [&](const Entry& entry) { return entry.key == key; });
 }
 
-/// A text without quotes; or a number, a truth, a list or a table as TOML has them.
+/// Reads a value: a text without quotes, or a number, a truth value, a list or a table in TOML.
 base::Result<Node> value_of(std::string_view text)
 {
     auto document = base::parse_document(fmt::format("value = {}", text));
-    // "1 \n more = 2" would be several.
+    // A text such as "1 \n more = 2" would be several values.
     if (document && std::get<Node::Table>(document->value).size() == 1) {
         return std::move(std::get<Node::Table>(document->value).front().value);
     }

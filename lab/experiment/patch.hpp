@@ -9,15 +9,15 @@
 
 namespace hapnet::lab::experiment {
 
-/// Puts the entries of `over` into the table `under`: tables into tables, all else instead of what
-/// was there. Both are tables.
+/// Merges the entries of the table `over` into the table `under`. Tables are merged; every other
+/// value replaces the old one.
 void overlay(base::Node& under, const base::Node& over);
 
-/// Takes the entry of this key out of a table; an empty table when there is none.
+/// Removes the entry of this key from a table and returns it; an empty table when there is none.
 [[nodiscard]] base::Node taken(base::Node& table, std::string_view key);
 
-/// "limit.delay.to=200ms" as a table to overlay. A value that is no TOML is a text: quotes can be
-/// left out. The error says how to write it.
+/// Returns "limit.delay.to=200ms" as a table for overlay(). A value that is not TOML is taken as a
+/// text, so quotes can be left out. The error says how to write it.
 [[nodiscard]] base::Result<base::Node> setting_table(std::string_view setting);
 
 } // namespace hapnet::lab::experiment

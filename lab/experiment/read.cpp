@@ -29,7 +29,7 @@ using base::Node;
 using base::Reading;
 using base::TableReader;
 
-/// A table of its own under [algorithm], whose kind is its name if it says no other.
+/// Reads a table of an own algorithm under [algorithm]. Its kind is its name if it states no other.
 std::optional<peer::Algorithm> read_own_algorithm(const std::string& name, const Node& node,
                                                   Reading& reading)
 {
@@ -43,7 +43,7 @@ std::optional<peer::Algorithm> read_own_algorithm(const std::string& name, const
     return peer::read_algorithm(table, reading);
 }
 
-/// The algorithms that are named: those of [algorithm], or else the built-in ones.
+/// Reads the named algorithms: those of [algorithm], or else the built-in ones.
 void read_algorithms(TableReader& table, std::vector<NamedAlgorithm>& algorithms)
 {
     Reading& reading = table.reading();
@@ -66,7 +66,7 @@ void read_algorithms(TableReader& table, std::vector<NamedAlgorithm>& algorithms
     }
 }
 
-/// The profile in the file that an experiment names.
+/// Reads the profile in a file of the experiment.
 emulator::Profile read_profile(const Node& node, Reading& reading)
 {
     std::string file;
@@ -85,7 +85,7 @@ emulator::Profile read_profile(const Node& node, Reading& reading)
     return profile.value_or(emulator::Profile{});
 }
 
-/// The conditions of all links, what single ones have of their own, and what changes meanwhile.
+/// Reads the conditions of all links, the settings of single links, and the changes over time.
 void read_network(TableReader& table, Experiment& experiment)
 {
     const Node* file = table.find("profile");
@@ -121,13 +121,13 @@ bool has_parties(const Kind& kind)
     return std::holds_alternative<Limits>(kind) || std::holds_alternative<ImpairmentGrid>(kind);
 }
 
-/// A task and who plays it.
+/// A task and its players.
 struct TaskOfParty {
     device::Task task{};
     Party party{};
 };
 
-/// All that an experiment plays.
+/// Returns all tasks of an experiment with their players.
 std::vector<TaskOfParty> played_in(const Experiment& experiment)
 {
     std::vector<TaskOfParty> played;
@@ -148,7 +148,7 @@ std::vector<TaskOfParty> played_in(const Experiment& experiment)
     return played;
 }
 
-/// Complains of those that cannot play.
+/// Reports an error for parties that cannot play a task.
 void check_parties(const Experiment& experiment, base::Place place, Reading& reading)
 {
     const auto parties = parties_of(experiment);
@@ -169,7 +169,7 @@ void check_parties(const Experiment& experiment, base::Place place, Reading& rea
     }
 }
 
-/// Complains of records of too many sessions, and of sealed messages.
+/// Reports an error for records of too many sessions, or with sealed messages.
 void check_record(const Experiment& experiment, base::Place place, Reading& reading)
 {
     if (!experiment.record) return;
@@ -181,7 +181,7 @@ void check_record(const Experiment& experiment, base::Place place, Reading& read
         reading.complain(place, "a record has ticks of 1 ms: leave 'tick' out");
 }
 
-/// Complains of recorded people if no result of the kind distinguishes their sessions.
+/// Reports an error for recorded people if no result of the kind distinguishes their sessions.
 void check_people(const Experiment& experiment, base::Place place, Reading& reading)
 {
     const auto* limits = std::get_if<Limits>(&experiment.kind);
@@ -202,7 +202,7 @@ void check_people(const Experiment& experiment, base::Place place, Reading& read
                             "out");
 }
 
-/// Complains of a hand that has both a way to go and one to mean.
+/// Reports an error for a hand that has both a motion to replay and a motion to intend.
 void check_ways(const Experiment& experiment, base::Place place, Reading& reading)
 {
     if (experiment.replay.empty() || experiment.script.empty()) return;
@@ -212,7 +212,7 @@ void check_ways(const Experiment& experiment, base::Place place, Reading& readin
     }
 }
 
-/// A session that is to be as long as its scripts.
+/// Takes the length of a session from its scripts.
 void take_length_of_scripts(Experiment& experiment, base::Place place, Reading& reading)
 {
     if (experiment.duration != base::Duration{0}) return;
@@ -238,7 +238,7 @@ void take_length_of_scripts(Experiment& experiment, base::Place place, Reading& 
     experiment.is_as_long_as_scripts = true;
 }
 
-/// Complains of a reference that nothing can be held against.
+/// Reports an error for a reference with which nothing can be compared.
 void check_reference(const Experiment& experiment, const std::vector<AxisValues>& points,
                      base::Place place, Reading& reading)
 {
@@ -259,7 +259,7 @@ void check_reference(const Experiment& experiment, const std::vector<AxisValues>
         return refuse(fmt::format("'{}' is not among the values", *axis->reference));
 }
 
-/// Complains of axes that have no points.
+/// Reports an error for axes that have no points.
 void check_axes(TableReader& table, const Experiment& experiment)
 {
     const Node* axes = table.find("axis");
@@ -276,7 +276,7 @@ Experiment read_experiment(const Node& document, Reading& reading)
     TableReader table{std::get<Node::Table>(document.value), document.place, reading};
     Experiment experiment = usual_experiment();
     const auto kinds = fmt::format("use one of {}", KindFormat{}.describe());
-    std::ignore = table.require("kind", kinds); // the kind decides which keys are known
+    std::ignore = table.require("kind", kinds); // the kind decides which keys are valid
     base::read_fields(table, experiment);
     read_algorithms(table, experiment.algorithms);
     read_network(table, experiment);
@@ -303,8 +303,8 @@ Experiment read_experiment(const Node& document, Reading& reading)
     return experiment;
 }
 
-/// Says where a misplaced key belongs: at the top, like the fields of an experiment, or where a
-/// profile has it.
+/// Returns advice on where a misplaced key belongs: at the top, like the fields of an experiment,
+/// or where a profile has it.
 std::string advice_on_key(std::string_view key)
 {
     const auto& rows = base::field_table<Experiment>().rows;
@@ -337,8 +337,9 @@ base::Result<Experiment> read_tree(const Node& document, const Source& source,
     return experiment;
 }
 
-/// The setting from which on the text is no experiment any more is the one to complain of;
-/// `experiment` says what is wrong in the end. A text that is none by itself may become one.
+/// Reports the first setting with which the text is no longer an experiment. `experiment` has the
+/// error with all settings. A text that is not an experiment by itself may become one by its
+/// settings.
 base::Result<Experiment> complain_of_settings(Node document, const Overrides& overrides,
                                               const base::OpenFile& open,
                                               const base::Result<Experiment>& experiment)
@@ -354,7 +355,7 @@ base::Result<Experiment> complain_of_settings(Node document, const Overrides& ov
     return complaint;
 }
 
-/// True if a setting is of the axes themselves.
+/// True if a setting changes the axes themselves.
 bool is_of_axes(std::string_view setting)
 {
     const std::string_view key = setting.substr(0, setting.find('='));
@@ -362,7 +363,8 @@ bool is_of_axes(std::string_view setting)
     return table == "axis" || table == "latin_hypercube";
 }
 
-/// The files that the text of `file` names: beside it, or else by the name as it stands.
+/// Opens the files that the text of `file` names: a file beside it, or else the file at the given
+/// path.
 base::OpenFile beside(const std::string& file, const base::OpenFile& open)
 {
     const std::string folder = file.substr(0, file.rfind('/') + 1);

@@ -13,8 +13,8 @@ using Thousandths = std::int64_t;
 
 constexpr Thousandths gaps = counted_levels - 1;
 
-/// The levels between which sessions begin to fail: the last without failures before the first with
-/// some, and the first at which all fail, or the last that was tried.
+/// The levels between which sessions begin to fail: the last one without failures before the first
+/// one with failures, and the first one at which all fail, or else the last tried level.
 struct Onset {
     Thousandths low = 0;
     Thousandths high = 0;
@@ -26,7 +26,7 @@ Thousandths rounded_up(Thousandths value, Thousandths unit)
     return (value + unit - 1) / unit * unit;
 }
 
-/// A search on its way.
+/// A search in progress.
 class LevelSearch {
 public:
     LevelSearch(const SearchRange& range, std::uint32_t seeds, const Failures& failures)
@@ -46,7 +46,7 @@ public:
         for (Thousandths step = range.step.thousandths; onset && step > resolution_;) {
             const Thousandths span = onset->high - std::max<Thousandths>(onset->low, 0);
             const Thousandths finer = std::max(resolution_, rounded_up(span / 8, resolution_));
-            // A scan need not be finer than the levels that count.
+            // A scan need not be finer than the distance of the levels that count.
             if (finer >= step || span <= 4 * finer) break;
             step = finer;
             onset = scanned(std::max<Thousandths>(onset->low, 0), onset->high, step);
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    /// low is -1 when the first level has failures.
+    /// Scans the range. `low` is -1 when the first level has failures.
     base::Result<Onset> scanned(Thousandths from, Thousandths to, Thousandths step)
     {
         const std::uint32_t seeds = std::min(scan_seeds, seeds_);
@@ -73,7 +73,8 @@ private:
         }
     }
 
-    /// Nothing failed as far as was scanned: all seeds at the top, and more if one of them fails.
+    /// Plays all seeds at the top level if the scan found no failures. Adds levels if one of them
+    /// fails.
     base::Result<std::vector<ImpairmentLevel>> only_top(const Onset& onset)
     {
         const auto failed = failures_({to_}, seeds_);
@@ -82,7 +83,7 @@ private:
         return widened({onset.low - gaps * resolution_, to_, true});
     }
 
-    /// Eight levels across the onset, and further ones.
+    /// Returns eight levels across the onset, and further ones.
     base::Result<std::vector<ImpairmentLevel>> widened(const Onset& onset)
     {
         const Thousandths low = std::max<Thousandths>(onset.low, 0);

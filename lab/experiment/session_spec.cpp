@@ -16,10 +16,11 @@ namespace hapnet::lab::experiment {
 
 namespace {
 
-/// 64 bits: among 10^5 sessions two have the same hash by chance once in 10^9 experiments.
+/// Returns a hash of 64 bits. Among 10^5 sessions two have the same hash by chance once in 10^9
+/// experiments.
 std::uint64_t hash_of(std::string_view text) { return base::Seed{}.stream(text).bits(0); }
 
-/// Returns the scene that a task of this number of peers is made for.
+/// Returns the scene for which a task of this number of peers is made.
 scene::Description scene_for(device::Task task, std::size_t peers)
 {
     const auto name = device::scene_of(task, peers);
@@ -73,8 +74,8 @@ std::string player_text(const virtual_time::PlayerSetting& player)
         send_text(player.send), playout_text(player.playout));
 }
 
-/// Returns hashes of the contents of the files that a setting's text names: a trace of delays
-/// stands there by its name.
+/// Returns hashes of the contents of the files that a setting's text names. For example, the text
+/// has only the name of a trace of delays.
 std::string contents_text(const std::vector<NamedContents>& files, std::string_view setting)
 {
     std::string text;
@@ -170,7 +171,7 @@ std::string key_of(const SessionSpec& spec, std::string_view program)
     const auto all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}{}\n", label, program, setting.tick.count(),
                                  spec.rows_per_s, emulator::to_text(setting.profile), players,
                                  scene::to_text(setting.scene));
-    // Each of these adds to the key only where it is set: without it the key stays the same.
+    // Each of these changes the key only where it is set, so that other keys stay the same.
     const std::string_view limit = setting.energy_limit ? "energy_limit = true\n" : "";
     const std::string_view keyed = setting.players.front().circle ? "keyed = true\n" : "";
     const auto silence =

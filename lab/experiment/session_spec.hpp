@@ -15,12 +15,12 @@
 
 namespace hapnet::lab::experiment {
 
-/// A session to be played, and how many rows a second are kept of it besides its metrics.
+/// A session to be played, and how many rows a second are kept besides its metrics.
 struct SessionSpec {
     virtual_time::Setting setting{};
     std::uint32_t rows_per_s = 0;
     std::string algorithm{}; // name in the experiment, which does not affect the session
-    /// The files that the experiment names. The setting has their contents, its texts only names.
+    /// The files that the experiment names. The setting holds their contents but not their names.
     std::vector<NamedContents> files{};
     /// If set, only the distance of the copies this time after silence is kept: see claims.hpp.
     std::optional<base::Duration> silence{};
@@ -33,10 +33,10 @@ struct PlayedSession {
     std::optional<double> apart_m{}; // distance of the copies, if the session ends in silence
 };
 
-/// Plays a session, or gives what is known of it already.
+/// Plays a session, or returns its known result.
 using PlaySession = std::function<base::Result<PlayedSession>(const SessionSpec&)>;
 
-/// Names one of an experiment's sessions.
+/// The identity of one of an experiment's sessions.
 struct SessionCase {
     const NamedAlgorithm& algorithm;
     const Hands& hands;
@@ -49,19 +49,19 @@ struct SessionCase {
 [[nodiscard]] SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& one,
                                             const emulator::Path& path);
 
-/// Returns the spec of this session on a perfect network, which scores are relative to. It keeps no
-/// rows.
+/// Returns the spec of the same session on a perfect network. Scores are relative to it. It keeps
+/// no rows.
 [[nodiscard]] SessionSpec perfect_twin(const SessionSpec& spec);
-/// Returns the spec of these hands in one scene, whatever the algorithm. Stiffness is relative to
-/// it. It keeps no rows.
+/// Returns the spec of the same hands in one scene, whatever the algorithm is. Stiffness is
+/// relative to it. It keeps no rows.
 [[nodiscard]] SessionSpec one_world_twin(const SessionSpec& spec);
 
-/// A profile on one line.
+/// Returns a profile on one line.
 [[nodiscard]] std::string network_text(const emulator::Profile& profile);
 
-/// Returns one line that tells sessions apart: the facts that a person looks for, and a hash of all
-/// inputs of the session, including the contents of the files that it names. `program` is the
-/// program that plays it: another one may play it differently.
+/// Returns one line that identifies a session: the facts that a person looks for, and a hash of all
+/// inputs of the session, including the contents of its files. `program` is the program that plays
+/// it, since another one may play it differently.
 [[nodiscard]] std::string key_of(const SessionSpec& spec, std::string_view program);
 
 } // namespace hapnet::lab::experiment

@@ -23,22 +23,24 @@ struct Shard {
 
 inline constexpr std::uint32_t shards_max = 100'000;
 
-/// "3/16"
+/// Reads a text such as "3/16".
 [[nodiscard]] base::Result<Shard> parse_shard(std::string_view text);
 
-/// Deals the jobs of an experiment out to its shards: the same for all who ask for them in the same
-/// order. Jobs that share a perfect twin go to the same shard, which then plays it once, unless
-/// there are fewer twins than shards; then they go round.
+/// Distributes the jobs of an experiment to its shards. The distribution is the same for all
+/// callers that pass the jobs in the same order. Jobs that share a perfect twin go to the same
+/// shard, which then plays the twin once. If there are fewer twins than shards, the jobs go to the
+/// shards in turn.
 class ShardDeal {
 public:
-    /// `first_jobs`: the jobs that takes() will get first. They determine how many twins there are.
+    /// `first_jobs` are the first jobs that takes() will get. They determine how many twins there
+    /// are.
     ShardDeal(const Shard& shard, const std::vector<Job>& first_jobs);
 
-    /// True if the next job is of the shard.
+    /// True if the next job belongs to the shard.
     [[nodiscard]] bool takes(const Job& job);
 
 private:
-    /// Algorithm, task, number of peers, scene and seed; a search has all seeds.
+    /// Algorithm, task, number of peers, scene and seed. A search has all seeds.
     using Twin = std::tuple<std::size_t, device::Task, std::uint32_t, std::size_t, std::uint64_t>;
     [[nodiscard]] static Twin twin_of(const Job& job);
     [[nodiscard]] std::size_t number_of(const Twin& twin);

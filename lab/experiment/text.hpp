@@ -23,19 +23,19 @@ struct Overrides {
     bool is_point = false;             // the settings are those of a point: ignore the text's axes
 };
 
-/// Reads an experiment. Errors begin with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: " when
-/// it is a setting that the text does not bear, and say what would be right. Scenes that it names
-/// by their files are asked from `open`; without it that is an error.
+/// Reads an experiment. An error begins with "SOURCE:LINE:COLUMN: ", or with "--set KEY=VALUE: "
+/// when it is in a setting, and says what would be right. `open` returns the texts of scenes that
+/// it names by their files; without `open` such a scene is an error.
 [[nodiscard]] base::Result<Experiment> parse_experiment(std::string_view text,
                                                         const std::string& source,
                                                         const Overrides& overrides = {},
                                                         const base::OpenFile& open = {});
 
-/// The experiment as TOML with every parameter of its algorithms: it reads back as the same
-/// experiment.
+/// Returns the experiment as TOML with every parameter of its algorithms. The text reads back as
+/// the same experiment.
 [[nodiscard]] std::string to_text(const Experiment& experiment);
 
-/// An experiment that every program carries with it: a file of scripts/experiments.
+/// An experiment that is built into every program: a file of scripts/experiments.
 struct BuiltInExperiment {
     std::string_view name; // file name without .toml
     std::string_view text;
@@ -44,8 +44,8 @@ struct BuiltInExperiment {
 /// All built-in experiments, by name.
 [[nodiscard]] std::span<const BuiltInExperiment> built_in_experiments();
 
-/// Reads the built-in experiment of that name, or else the file that `open` gives the text of. A
-/// file that it names is looked for beside it first.
+/// Reads the built-in experiment of that name, or else the file whose text `open` returns. A file
+/// that the experiment names is looked for beside it first.
 [[nodiscard]] base::Result<Experiment> load_experiment(const std::string& file_or_name,
                                                        const base::OpenFile& open,
                                                        const Overrides& overrides);
@@ -56,7 +56,7 @@ struct AxisPoint {
     Experiment experiment;
 };
 
-/// The experiment at every point of its axes, or as it is when it has none.
+/// Returns the experiment at every point of its axes, or the experiment itself when it has none.
 [[nodiscard]] base::Result<std::vector<AxisPoint>> load_axis_points(const std::string& file_or_name,
                                                                     const base::OpenFile& open,
                                                                     const Overrides& overrides);

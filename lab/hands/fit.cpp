@@ -14,7 +14,7 @@ namespace hapnet::lab::hands {
 
 namespace {
 
-/// The scale up to which a rule is kept.
+/// The greatest scale at which a rule is kept.
 struct Bound {
     double scale = std::numeric_limits<double>::infinity();
     std::string what{};
@@ -75,7 +75,7 @@ double mean_reach_of(const std::vector<Motion>& hands)
     return sum / static_cast<double>(hands[0].size());
 }
 
-/// Rounds down to four digits, so that the result is not above the bound.
+/// Rounds down to four digits, so that the result does not exceed the bound.
 double rounded_down(double scale)
 {
     const double per_unit = std::pow(10.0, 3.0 - std::floor(std::log10(scale)));

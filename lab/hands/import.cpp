@@ -21,7 +21,7 @@ struct Person {
     Track track;
 };
 
-/// The stretch of a recording that is taken, on the clock of the recording.
+/// The part of a recording that is imported, on the clock of the recording.
 struct Stretch {
     double zero_s = 0.0; // time of the first row
     double from_s = 0.0;
@@ -79,7 +79,7 @@ base::Result<Stretch> stretch_of(const std::vector<Person>& people, const Import
                     people.size() > 1 ? "both hands were seen" : "the hand was seen"));
 }
 
-/// Complains of what no smoothing can mend.
+/// Reports faults that no smoothing can repair.
 base::Result<void> check(const Person& person, const Stretch& stretch, const ImportRules& rules)
 {
     const double rate_hz = person.track.rate_hz;
@@ -111,7 +111,7 @@ std::string script_text(const Motion& motion)
     return text;
 }
 
-/// The name of a file without its folder and ending, as a name of a trial.
+/// Returns the name of a file without its folder and ending, as the name of a trial.
 std::string stem_of(std::string_view file)
 {
     file.remove_prefix(std::min(file.rfind('/') + 1, file.size()));

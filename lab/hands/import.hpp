@@ -14,7 +14,7 @@
 
 namespace hapnet::lab::hands {
 
-/// A file and what is in it.
+/// The name and the contents of a file.
 struct TextFile {
     std::string name;
     std::string text;
@@ -36,13 +36,13 @@ struct Imported {
     std::vector<TextFile> scripts; // scripts of A and of B: CSV for device::parse_hand_trace()
 };
 
-/// Makes scripts of the recorded motion of one or two people: of one file, or of one of A and one
-/// of B. Files with times share a clock; those without begin together. Errors name the file and,
-/// where there is one, the line.
+/// Makes scripts from the recorded motion of one or two people. The motion is in one file, or in
+/// one file of A and one of B. Files with times share a clock; those without times begin together.
+/// Errors name the file and, where there is one, the line.
 [[nodiscard]] base::Result<Imported> import_hands(std::span<const TextFile> files,
                                                   const ImportRules& rules);
 
-/// Returns lines for a person that say what was done.
+/// Describes an imported trial, in lines for a person.
 [[nodiscard]] std::string told(const ImportedTrial& trial);
 
 } // namespace hapnet::lab::hands

@@ -14,7 +14,7 @@ namespace hapnet::lab::hands {
 
 namespace {
 
-/// Complains of what could not have been imported.
+/// Reports values that no import could have written.
 base::Result<void> check(const Manifest& manifest, const std::string& source)
 {
     if (manifest.version != 1) {

@@ -14,7 +14,7 @@
 
 namespace hapnet::lab::hands {
 
-// manifest.json of a folder of trials: docs/formats/hands.md.
+// The manifest.json of a folder of trials: docs/formats/hands.md.
 
 /// The imported recording of one person.
 struct ImportedHand {
@@ -48,7 +48,7 @@ constexpr auto fields_of(base::Tag<ImportedHand>)
             .rounded(3));
 }
 
-/// A motion of one or two people, and what was done to it.
+/// A motion of one or two people, and the changes that the import made.
 struct ImportedTrial {
     std::string subject;
     std::string trial;
@@ -117,15 +117,16 @@ constexpr auto fields_of(base::Tag<Manifest>)
 
 inline constexpr std::string_view manifest_name = "manifest.json";
 
-/// Reads a manifest. `source` names it in errors, which say what it is instead.
+/// Reads a manifest. `source` names it in errors, which say what the text is instead.
 [[nodiscard]] base::Result<Manifest> parse_manifest(std::string_view text,
                                                     const std::string& source);
 [[nodiscard]] std::string to_text(const Manifest& manifest);
 
-/// Adds a trial, in the place of the one that has the same subject and name.
+/// Adds a trial. It replaces the one that has the same subject and name.
 void put(Manifest& manifest, ImportedTrial trial);
 
-/// True if it can name a subject, a trial or a file of one: letters, digits, - and _, at most 200.
+/// True if the name can be that of a subject, of a trial or of one of its files: letters, digits, -
+/// and _, at most 200 characters.
 [[nodiscard]] bool is_plain_name(std::string_view name);
 
 } // namespace hapnet::lab::hands

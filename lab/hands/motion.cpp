@@ -15,7 +15,8 @@ namespace {
 constexpr double butterworth_2 = 0.70710678118654752440; // 1 / (2 sin(pi/4))
 constexpr double two_passes = 1.24650470277092690;       // 1 / (sqrt(2) - 1)^(1/4)
 
-/// The slope at sample `i` of the parabola through it and its neighbours; at an end, of the line.
+/// Returns the slope at sample `i` of the parabola through it and its neighbours; at an end, the
+/// slope of the line.
 glm::dvec3 slope_at(const std::vector<Sample>& samples, std::size_t i)
 {
     const auto slope = [&](std::size_t from, std::size_t to) {
@@ -39,7 +40,7 @@ glm::dvec3 between(const std::vector<Sample>& samples, std::size_t i, double tim
            width * u * rest * (rest * slope_at(samples, i) - u * slope_at(samples, i + 1));
 }
 
-/// One coordinate, forward and backward, with its reflections at both ends.
+/// Filters one coordinate, forward and backward, with its reflections at both ends.
 void smooth_axis(Motion& motion, int axis, double cutoff_hertz)
 {
     constexpr double periods = 3.0; // periods of the cutoff within which the filter settles

@@ -14,24 +14,24 @@
 
 namespace hapnet::lab::hands {
 
-/// Intended motions of two hands in a session, by the recording of one or two people.
+/// The intended motions of two hands in a session, from the recording of one or two people.
 struct Trial {
     std::string subject;
     std::string name;
-    /// Motions of A and of B; empty: the simulated hand does what the task says.
+    /// The motions of A and of B; empty: the simulated hand follows the task.
     std::array<std::shared_ptr<const device::HandTrace>, 2> ways{};
 
-    /// The end of the motion that ends last, seconds.
+    /// Returns the end of the motion that ends last, seconds.
     [[nodiscard]] double end_s() const;
 };
 
-/// Recorded hands of several people: a folder that hapnet-lab import hands wrote.
+/// Recorded hands of several people: a folder that `hapnet-lab import hands` wrote.
 struct Population {
     std::string folder; // path of the folder, as it was given
     std::vector<Trial> trials;
 
     [[nodiscard]] std::size_t subjects() const;
-    /// "people" of "recordings/people/"
+    /// Returns the last part of the path: "people" for "recordings/people/".
     [[nodiscard]] std::string name() const;
 };
 

@@ -19,8 +19,8 @@ constexpr std::array<base::ColumnUnit, 4> time_units{
 constexpr double farthest_m = 1000.0;
 constexpr double latest_s = 1e11; // a clock that counts from an epoch has about 2e9
 
-/// Returns the kinds of columns that a table may hold: the place of the first person, that of the
-/// second, the time.
+/// Returns the kinds of columns that a table may hold: the positions of the first and the second
+/// person, and the time.
 std::array<base::ColumnKind, 7> kinds_of(const RecordingFormat& format)
 {
     constexpr std::array<std::string_view, 3> usual{"x_m or x_mm, or x with --units",
@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    /// The time of a row: its own, or that of its number.
+    /// Returns the time of a row: from its column, or from the row's number.
     [[nodiscard]] base::Result<double> time_of(std::span<const std::string_view> cells)
     {
         const auto& column = layout_.columns[6];
@@ -104,7 +104,7 @@ private:
         return time_s;
     }
 
-    /// Returns the place of a person's hand; nullopt inside: the hand was not seen.
+    /// Returns the position of a person's hand; the inner nullopt: the hand was not seen.
     [[nodiscard]] base::Result<std::optional<glm::dvec3>>
     place_of(std::span<const std::string_view> cells, std::size_t person)
     {
@@ -170,7 +170,7 @@ base::Result<std::vector<Track>> read_rows(base::LineReader& lines, const Record
     return tracks;
 }
 
-/// Returns the names "px,py,pz" as "x=px,y=py,z=pz"; nullopt: their number is not allowed.
+/// Returns the names "px,py,pz" as "x=px,y=py,z=pz"; nullopt: this number of names is not allowed.
 std::optional<std::string> with_meanings(std::string_view names)
 {
     std::vector<std::string_view> words;

@@ -36,7 +36,7 @@ Json pace_json(const Controlled<Played>& controlled)
             {"read_only", Played::is_read_only}};
 }
 
-/// A number of seconds from `least` on; 0 where something else is there, and the fault is noted.
+/// Reads a number of seconds of at least `least`. Otherwise returns 0 and notes the fault.
 double seconds_in(Members& members, const char* key, double least)
 {
     constexpr double most = 3600.0;
@@ -49,7 +49,7 @@ double seconds_in(Members& members, const char* key, double least)
     return 0.0;
 }
 
-/// Reads the factor of the pace; nullopt: as fast as possible, or a fault is noted.
+/// Reads the factor of the pace; nullopt: as fast as possible, or a fault was noted.
 std::optional<double> factor_in(Members& members)
 {
     const Json* value = members.find("factor");
@@ -63,7 +63,7 @@ std::optional<double> factor_in(Members& members)
     return std::nullopt;
 }
 
-/// Does it, where nothing is wrong with it; the members that the reply has besides.
+/// Carries out a request about the pace if it is valid. Returns the further members of the reply.
 template <typename Played>
 base::Result<Json> pace_done(Members& members, const Controlled<Played>& controlled)
 {
@@ -128,7 +128,7 @@ std::string pace_reply(Members& members, const Controlled<Played>& controlled)
     return control::line_of(reply);
 }
 
-/// Adds the program, the peers and the pace to what an emulator says of itself.
+/// Adds the program, the peers and the pace to an emulator's reply about itself.
 template <typename Played>
 std::string shown(const std::string& reply, const Controlled<Played>& controlled)
 {

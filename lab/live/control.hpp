@@ -14,22 +14,24 @@
 namespace hapnet::lab::live {
 
 /// A session in virtual time, or a Recording of one, as the clients of its control sockets see it:
-/// an emulator and peers as they are in real time, and its pace. Both parts outlive it.
+/// as an emulator and peers like those in real time, with a pace. Session and pace outlive it.
 template <typename Played>
 struct Controlled {
     Played& session;
     Pace& pace;
-    /// Keeps an experiment, and the way of its hand; gives the name of its file.
+    /// Saves an experiment, and the motion of its hand. Returns the name of its file.
     std::function<base::Result<std::string>(experiment::Experiment saved)> save;
-    /// Ends it, as SIGTERM does.
+    /// Ends the session, as SIGTERM does.
     std::function<void()> stop;
 };
 
-/// The socket of the network and of the pace: requests of an emulator, and `pace`.
+/// Returns the subject of the socket of the network and of the pace. It answers the requests of an
+/// emulator, and `pace`.
 template <typename Played>
 [[nodiscard]] control::Subject subject_of(const Controlled<Played>& controlled);
 
-/// The socket of a peer, which is looked at. A stop ends the session, of all its peers.
+/// Returns the subject of the socket of a peer, which can only be watched. A stop ends the session
+/// of all peers.
 template <typename Played>
 [[nodiscard]] control::Subject peer_subject(const Controlled<Played>& controlled, std::size_t seat);
 

@@ -14,7 +14,7 @@ std::optional<base::Duration> Pace::due(base::Duration passed, base::Duration ti
         return base::Duration{0};
     }
     if (!factor_) return std::nullopt;
-    // The time that a stopped program has missed is not made up for.
+    // Time that a suspended program has missed is not played later.
     constexpr base::Duration at_once{std::chrono::milliseconds{100}};
     owed_s_ += base::to_seconds(std::min(passed, at_once)) * *factor_;
     const auto ticks = std::floor(owed_s_ / base::to_seconds(tick));

@@ -9,7 +9,7 @@
 
 namespace hapnet::lab::live {
 
-/// The last part of the way of a seek: those who watch see this much of it.
+/// The last part of a seek, which viewers see.
 inline constexpr base::Duration shown_of_a_seek{std::chrono::milliseconds{20}};
 
 /// The pace of virtual time against a clock. It reads no clock: callers pass the time.
@@ -18,7 +18,7 @@ public:
     static constexpr double factor_min = 0.1;
     static constexpr double factor_max = 100.0;
 
-    /// `factor` virtual seconds a second; nullopt: as fast as possible.
+    /// `factor` is in virtual seconds per second; nullopt: as fast as possible.
     explicit Pace(std::optional<double> factor, bool plays) : factor_{factor}, plays_{plays} {}
 
     void play() { plays_ = true; }
@@ -28,8 +28,8 @@ public:
     [[nodiscard]] bool plays() const { return plays_; }
     [[nodiscard]] std::optional<double> factor() const { return factor_; }
 
-    /// Returns the virtual time to play for a passed time of the clock: whole ticks, the rest is
-    /// kept. nullopt: play as fast as possible.
+    /// Returns the virtual time to play for the time that has passed on the clock. It is in whole
+    /// ticks; the remainder is carried over. nullopt: play as fast as possible.
     [[nodiscard]] std::optional<base::Duration> due(base::Duration passed, base::Duration tick);
 
 private:

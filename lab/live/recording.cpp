@@ -29,7 +29,8 @@ std::string text_in(const nlohmann::json& config, const char* key)
     return found != config.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// The first place whose row is not before this one; `key` gives what they ascend in.
+/// Returns the first place whose row is not before `value`. `key` returns the value in which the
+/// rows ascend.
 template <typename Rows, typename Value, typename Key>
 std::size_t place_in(const Rows& rows, const Value& value, Key key)
 {
@@ -99,7 +100,7 @@ void Recording::seek(base::Duration time)
     play_to(time);
 }
 
-/// Goes to a time. Of the rows before it, only those of agreements are shown.
+/// Goes to a time. Of the rows before it, only those with agreements are shown.
 void Recording::go_to(Playback& one, base::TimePoint time)
 {
     const auto& ticks = one.side.ticks;
@@ -119,7 +120,7 @@ void Recording::show_until(Playback& one, base::TimePoint until)
     }
 }
 
-/// Shows a tick and what belongs to it, as a running peer shows them to its watchers.
+/// Shows a tick and its rows, as a running peer shows them to its watchers.
 void Recording::show(Playback& one, const record::TickRow& tick)
 {
     const auto& messages = one.side.messages;
@@ -131,7 +132,7 @@ void Recording::show(Playback& one, const record::TickRow& tick)
     for (; one.messages < messages.size() && messages[one.messages].tick <= tick.tick;
          ++one.messages) {
         const record::MessageRow& message = messages[one.messages];
-        // Older records do not say whose it is.
+        // Older records do not name the sender.
         const std::uint16_t from = message.from == 0 ? one.other : message.from;
         one.tap.hear(from, message.received_at, message.bytes);
     }
@@ -172,7 +173,8 @@ nlohmann::ordered_json Recording::statistics() const
     return {{"program", "hapnet-lab"}, {"elapsed_s", base::to_seconds(at())}};
 }
 
-/// Returns frames of an emulator without links: the records of the peers do not hold its work.
+/// Returns frames of an emulator without links: the records of the peers do not hold data about the
+/// emulator.
 control::FrameSource Recording::watch()
 {
     return [this](std::string& text, std::uint64_t left_out) {

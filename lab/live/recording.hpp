@@ -21,12 +21,12 @@
 namespace hapnet::lab::live {
 
 /// A finished session from the records of its two peers. It plays as a Session does, at the
-/// requested pace and from any moment, but nothing of it can be changed. Its times are those of the
-/// records, each on the clock of its peer. Reads no clock.
+/// requested pace and from any moment, but nothing in it can be changed. Its times are those of the
+/// records, each on the clock of its peer. It reads no clock.
 class Recording {
 public:
-    /// Takes the last session that both records know. The records may be in either order. Both
-    /// outlive it.
+    /// Takes the last session that both records contain. The records may be in either order. Both
+    /// outlive the result.
     [[nodiscard]] static base::Result<std::unique_ptr<Recording>> make(const record::Record& a,
                                                                        const record::Record& b);
 
@@ -36,9 +36,9 @@ public:
 
     static constexpr bool is_read_only = true;
 
-    /// The time since the first moment at which both records have a row.
+    /// Returns the time since the first moment at which both records have a row.
     [[nodiscard]] base::Duration at() const { return at_; }
-    /// The time until one record has no further row, at most to the end of the session.
+    /// Returns the time until one record has no further row, at most to the end of the session.
     [[nodiscard]] base::Duration length() const { return end_ - begin_; }
     [[nodiscard]] bool is_over() const { return at() >= length(); }
     [[nodiscard]] base::Duration tick() const { return tick_; }
@@ -47,7 +47,7 @@ public:
     void play_on(base::Duration by) { play_to(at() + by); }
     void seek(base::Duration time);
 
-    /// Answers as an emulator whose conditions cannot be changed and are not known.
+    /// Answers like an emulator whose conditions are unknown and cannot be changed.
     [[nodiscard]] control::Answer answer(std::string_view line) const;
     [[nodiscard]] nlohmann::ordered_json statistics() const;
     [[nodiscard]] control::FrameSource watch();
@@ -56,14 +56,14 @@ public:
         return playbacks_[seat].tap.watch();
     }
     [[nodiscard]] nlohmann::ordered_json show_peer(std::size_t seat) const;
-    /// The position in the recording. The peer's other counters are not in its record.
+    /// Returns the position in the recording. The record does not hold the peer's other counters.
     [[nodiscard]] nlohmann::ordered_json peer_statistics(std::size_t seat) const;
     [[nodiscard]] std::size_t peers() const { return playbacks_.size(); }
     [[nodiscard]] const scene::Description& scene() const { return scene_; }
 
     [[nodiscard]] nlohmann::ordered_json steps() const { return nlohmann::ordered_json::array(); }
     [[nodiscard]] base::Result<experiment::Experiment> as_experiment() const;
-    /// A recording computes nothing and has no digest.
+    /// Returns 0: a recording computes nothing and has no digest.
     [[nodiscard]] std::uint64_t digest() const { return 0; }
 
 private:

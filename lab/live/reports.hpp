@@ -48,7 +48,7 @@ constexpr auto fields_of(base::Tag<PeerIntroduction>)
             .gauge("hapnet_peer_elapsed"));
 }
 
-/// Statistics of a peer, as far as there are any without sockets and a clock.
+/// The statistics of a peer, as far as they exist without sockets and a clock.
 struct PeerStatistics {
     PeerIntroduction introduction;
     peer::TickReport tick;
@@ -67,7 +67,8 @@ constexpr auto fields_of(base::Tag<PeerStatistics>)
         base::member("valid", &P::is_valid, "Virtual time is never late."));
 }
 
-/// The distance of the copies in another session that plays beside the first, for its frames.
+/// The distance of the copies in another session that plays in parallel with the first. It is shown
+/// in the first session's frames.
 struct OtherSession {
     std::string algorithm;
     base::Position cube_a;

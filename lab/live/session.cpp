@@ -24,14 +24,15 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
-/// The usual time from the first hello to the start: all hear each other, and then count down.
+/// The usual time from the first hello to the start, in which the peers hear each other and count
+/// down.
 constexpr base::Duration usual_countdown = 1s;
-/// A change at a time holds after the ticks of that time, like a step of a timeline.
+/// A change at a time takes effect after the ticks of that time, like a step of a timeline.
 constexpr base::Duration after_the_ticks = 1ns;
-/// 16 s of datagrams, more than a page can ask for.
+/// Room for 16 s of datagrams, more than a page can request.
 constexpr emulator::QueueLimits roomy{.datagrams_max = 16384, .bytes_max = 64U << 20};
 
-/// True if a request of this kind may change what holds.
+/// True if a request of this kind may change the conditions.
 bool may_change(std::string_view line)
 {
     const auto request = emulator::parse_request(line);
@@ -85,7 +86,7 @@ Session::Session(const experiment::Experiment& experiment,
     begin();
 }
 
-/// Begins everything again from its start. The world and the frames that were watched are replaced.
+/// Starts everything again from its beginning. The world and the watched frames are replaced.
 void Session::begin()
 {
     journals_.clear();
@@ -132,7 +133,7 @@ base::Duration Session::length() const
 
 void Session::play_to(base::Duration time)
 {
-    // Its length is known for certain only once the session is agreed on.
+    // The session's length is certain only when the session is agreed on.
     while (at() < std::min(time, length())) {
         const base::Duration end = std::min(time, length());
         const bool is_next = done_ < requests_.size() && requests_[done_].at <= end;
@@ -159,7 +160,7 @@ void Session::step()
     }
 }
 
-/// Records the motion of A's hand in the first session; it is the same in all sessions.
+/// Records the motion of A's hand in the first session. The motion is the same in all sessions.
 void Session::note_hand()
 {
     const virtual_time::VirtualPlayer& player = world_->side(0);
@@ -186,7 +187,7 @@ void Session::hand(const std::optional<device::HandWish>& wish)
     apply(requests_.back());
 }
 
-/// Adds a request and drops those that a seek has gone back before. Of several wishes at the same
+/// Adds a request and drops later ones, which a seek has left behind. Of several wishes at the same
 /// time only the last is kept.
 void Session::keep(Request request)
 {
@@ -205,7 +206,7 @@ void Session::apply(const Request& request)
         setting.players.front().page->put(request.hand);
 }
 
-/// FNV-1a, of whole numbers.
+/// Adds a player's state to the digest: FNV-1a of whole numbers.
 void Session::note(const virtual_time::VirtualPlayer& player)
 {
     const virtual_time::Sample sample = player.sample();

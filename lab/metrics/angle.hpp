@@ -7,7 +7,7 @@
 
 namespace hapnet::lab::metrics {
 
-/// The angle of the rotation from one orientation to the other, radians from 0 to pi.
+/// Returns the angle of the rotation from one orientation to the other, radians from 0 to pi.
 [[nodiscard]] inline double angle_between(const glm::dquat& a, const glm::dquat& b)
 {
     // The imaginary part keeps small angles precise, and |w| makes q and -q equal.

@@ -15,7 +15,7 @@ namespace {
 using virtual_time::Pose;
 using virtual_time::Trace;
 
-/// Returns the spread for the pair of sides whose mean is largest; `distance(a, b, i)` is the
+/// Returns the spread for the pair of sides whose mean is largest. `distance(a, b, i)` is the
 /// distance between the sides a and b at sample i.
 template <typename Distance>
 std::optional<Spread> widest_spread(const Trace& trace, const Distance& distance)

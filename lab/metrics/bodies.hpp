@@ -12,17 +12,17 @@
 namespace hapnet::lab::metrics {
 
 /// The distance and the angle between the copies of one shared body at equal times, in metres and
-/// radians. Among more than two copies, each is that of the two which are farthest apart in the
-/// mean.
+/// radians. With more than two copies, each value is that of the two copies that are farthest apart
+/// in the mean.
 struct BodyApart {
     /// |x_A - x_B|.
     std::optional<Spread> discrepancy_x_m{};
     /// The distance in space.
     std::optional<Spread> discrepancy_m{};
-    /// The angle between the orientations; nullopt: it never turned.
+    /// The angle between the orientations; nullopt: the body never turned.
     std::optional<Spread> turned_apart_rad{};
-    /// The largest of any two copies from 2 s after hands off to the end; nullopt: it was not
-    /// played so far.
+    /// The largest distance of any two copies from 2 s after hands off to the end; nullopt: the
+    /// session was not played so far.
     std::optional<double> settled_m{};
     std::optional<double> settled_rad{};
 
@@ -45,7 +45,8 @@ constexpr auto fields_of(base::Tag<BodyApart>)
 /// Returns an entry for each shared body, in the order of their ids. The trace is not empty.
 [[nodiscard]] std::vector<BodyApart> bodies_apart(const virtual_time::Trace& trace);
 
-/// The body that is farthest apart in the mean, by |x_A - x_B| and by the angle.
+/// These functions return the spread of the body that is farthest apart in the mean, by |x_A - x_B|
+/// and by the angle.
 [[nodiscard]] std::optional<Spread> widest_discrepancy_x(const std::vector<BodyApart>& bodies);
 [[nodiscard]] std::optional<Spread> widest_turned_apart(const std::vector<BodyApart>& bodies);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double vibration_steps_per_m = 1e5;
 constexpr double stiffness_steps = 1e3;
 
-/// The values of a number by task. Sessions without that number are left out.
+/// Returns the values of a number by task. Sessions without that number are left out.
 template <typename Value>
 std::map<device::Task, std::vector<double>> by_task(std::span<const Scores> sessions, Value value)
 {
@@ -32,7 +32,7 @@ std::map<device::Task, std::vector<double>> by_task(std::span<const Scores> sess
     return values;
 }
 
-/// The largest of the tasks' medians.
+/// Returns the largest of the tasks' medians of the vibration.
 std::optional<double> median_vibration(std::span<const Scores> sessions, double ByOrder::*order)
 {
     std::optional<double> largest;
@@ -46,7 +46,7 @@ std::optional<double> median_vibration(std::span<const Scores> sessions, double 
     return largest;
 }
 
-/// The largest of the tasks' medians.
+/// Returns the largest of the tasks' medians of the stiffness error.
 std::optional<double> median_stiffness_error(std::span<const Scores> sessions)
 {
     std::optional<double> largest;
@@ -61,8 +61,8 @@ std::optional<double> median_stiffness_error(std::span<const Scores> sessions)
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps; }
 
-/// Returns a reason why more than half of a task's sessions fail whatever the two calibrated limits
-/// are; nullopt: there is none.
+/// Returns the reason why more than half of a task's sessions fail whatever the two calibrated
+/// limits are; nullopt: there is none.
 std::optional<std::string> objection_to(std::span<const Scores> sessions, Criteria criteria)
 {
     constexpr double none = std::numeric_limits<double>::infinity();

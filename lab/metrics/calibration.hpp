@@ -10,16 +10,17 @@
 
 namespace hapnet::lab::metrics {
 
-/// The sessions of `base` that the paper found just tolerable, of every task and seed.
+/// The sessions of `base` that the paper found just tolerable, for every task and seed.
 struct CalibrationSessions {
     std::span<const Scores> at_delay;       // one-way delay of 160 ms
     std::span<const Scores> at_random_loss; // 93 % random loss, without delay
 };
 
-/// `rest` with the two numbers that are calibrated: the median over the seeds of the vibration at
-/// the random loss (of each filter order), to the nearest hundredth of a millimetre; and the median
-/// of the slow stiffness error at the delay, to the nearest thousandth; each of the task in which
-/// it is worst. So half of that task's sessions fail there, which is what a limit is.
+/// Returns `rest` with the two numbers that are calibrated. One is the median over the seeds of the
+/// vibration at the random loss (for each filter order), to the nearest hundredth of a millimetre.
+/// The other is the median of the slow stiffness error at the delay, to the nearest thousandth.
+/// Each is taken from the task in which it is worst. So half of that task's sessions fail there,
+/// which is the definition of a limit.
 ///
 /// Refuses sessions if none of them has a number to calibrate by. Refuses tasks in which more than
 /// half of the sessions are not usable by metrics that are not calibrated.

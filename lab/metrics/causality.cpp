@@ -22,10 +22,10 @@ std::optional<double> response_of(const Columns& pusher, const Columns& other, d
     const double moves_m = moves_m_per_s * tick_s;
     double sum_s = 0.0;
     double responses = 0.0;
-    double still_s = 0.0; // how long the other's copy has not moved
-    double apart_s = 0.0; // how long the pusher has not touched
+    double still_s = 0.0; // time for which the other side's copy has not moved
+    double apart_s = 0.0; // time for which the pusher has not touched
     bool waits = false;
-    double waited_s = 0.0; // time since the touch that waits for a response
+    double waited_s = 0.0; // time since the touch that still has no response
     for (std::size_t i = 1; i < count; ++i) {
         const bool touches = pusher.touching[i] != 0;
         if (touches && !waits && apart_s >= apart_min_s && still_s >= still_min_s) {

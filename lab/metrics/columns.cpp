@@ -33,8 +33,8 @@ Columns columns_of(std::span<const virtual_time::Sample> side)
         columns.push[i] = norm(sample.on_body);
         columns.touching[i] = own ? 1 : 0;
         columns.follows[i] = !own && sample.remote_touching ? 1 : 0;
-        // The device holds a tick's force until the next: this sum is exact, not a rule of
-        // integration.
+        // The device holds a tick's force until the next tick, so this sum is exact and not an
+        // approximate integration.
         const virtual_time::Sample& next = side[i + 1 < count ? i + 1 : i];
         columns.work[i] = -dot_of(sample.on_hand, next.hip - sample.hip);
     }

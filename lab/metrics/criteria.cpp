@@ -11,7 +11,7 @@ namespace hapnet::lab::metrics {
 
 namespace {
 
-/// A description as a comment of TOML; empty when there is none.
+/// Returns a description as a comment of TOML; empty when there is none.
 std::string comment(std::string_view about)
 {
     std::string text;
@@ -39,8 +39,7 @@ std::string commented_lines(const base::FieldTable& fields, const void* value)
     return text;
 }
 
-/// Returns advice on the keys that took the place of one that no longer exists; empty for all other
-/// keys.
+/// Returns advice on the keys that replace a key which no longer exists; empty for all other keys.
 std::string advice_on_key(std::string_view key)
 {
     if (key != "stiffness_ratio_min") return {};

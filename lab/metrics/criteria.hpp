@@ -23,7 +23,7 @@ inline constexpr std::array<std::uint32_t, 3> filter_order_counts{1, 2, 4};
     return filter_order_counts[static_cast<std::size_t>(order)];
 }
 
-/// The order of a filter as a text has it: 1, 2 or 4.
+/// The order of a filter in a text: 1, 2 or 4.
 struct FilterOrderFormat {
     void read(const base::Node& node, FilterOrder& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(FilterOrder order) const;
@@ -32,12 +32,12 @@ struct FilterOrderFormat {
 
 [[nodiscard]] double at_order(const ByOrder& values, FilterOrder order);
 
-/// The limits that a usable session keeps.
+/// The limits that a usable session must keep.
 struct UsableCriteria {
     ByOrder vibration_max_m{.first = 1.0e-3, .second = 0.97e-3, .fourth = 0.95e-3};
     double slow_stiffness_error_max = 0.859;
-    /// The most that the network may add to the vibration on the perfect network, where a tap on a
-    /// rigid cube alone has more than 0.1 N.
+    /// The greatest force vibration that the network may add to the vibration on the perfect
+    /// network, where a tap on a rigid cube alone has more than 0.1 N.
     double force_vibration_max_n = 0.1;
     double scored_share_min = 0.95;
     double discrepancy_max_m = 13.8e-3;
@@ -46,7 +46,7 @@ struct UsableCriteria {
     friend bool operator==(const UsableCriteria&, const UsableCriteria&) = default;
 };
 
-/// The further limits that a good session keeps.
+/// The further limits that a good session must keep.
 struct GoodCriteria {
     double stiffness_error_max = 0.23;
     double force_discrepancy_max = 0.1;
@@ -58,8 +58,8 @@ struct GoodCriteria {
     friend bool operator==(const GoodCriteria&, const GoodCriteria&) = default;
 };
 
-/// The two-tier convention. A convention and not a finding about people: the descriptions of the
-/// fields below say where each number comes from. SI units, ratios and shares as fractions.
+/// The two-tier convention. It is a convention and not a finding about people: the descriptions of
+/// the fields below say where each number comes from. SI units; ratios and shares are fractions.
 struct Criteria {
     FilterOrder filter_order = FilterOrder::first; // order of the high-pass filter for vibration
     UsableCriteria usable{};
@@ -134,11 +134,13 @@ constexpr auto fields_of(base::Tag<Criteria>)
         base::field("usable", &Criteria::usable), base::field("good", &Criteria::good));
 }
 
-/// `source` names the text in errors, which say line and column. A missing key gets its default.
+/// Reads criteria. `source` names the text in errors, which give line and column. A missing key
+/// gets its default.
 [[nodiscard]] base::Result<Criteria> parse_criteria(std::string_view text,
                                                     const std::string& source);
 
-/// TOML that reads back as the same criteria; its comments say where each number comes from.
+/// Returns the criteria as TOML that reads back as the same criteria. Its comments say where each
+/// number comes from.
 [[nodiscard]] std::string print_criteria(const Criteria& criteria);
 
 } // namespace hapnet::lab::metrics

@@ -7,11 +7,11 @@
 
 namespace hapnet::lab::metrics {
 
-/// The most energy, in joules, that all hands have together got out of their devices beyond what
-/// they had put in until then: max(0, -min E), E the running sum of the work of all, from 0. The
-/// system between the devices has created this energy; a passive system creates none. The energy
-/// stored in springs counts as put in. One device alone may well give what another hand put in
-/// elsewhere. nullopt when there is no sample.
+/// Returns the greatest energy, in joules, that all hands together have got out of their devices
+/// beyond the energy that they had put in until then: max(0, -min E), where E is the running sum of
+/// all hands' work, from 0. The system between the devices has created this energy; a passive
+/// system creates none. The energy stored in springs counts as put in. A single device may give out
+/// energy that another hand put in elsewhere. nullopt when there is no sample.
 [[nodiscard]] std::optional<double>
 energy_taken_of(std::span<const std::span<const double>> work_of_hands);
 

@@ -8,12 +8,12 @@ namespace hapnet::lab::metrics {
 
 namespace {
 
-// The values of device/simulated/script.cpp and of the scenes: docs/design/tasks.md.
+// The values come from device/simulated/script.cpp and from the scenes: docs/design/tasks.md.
 constexpr std::array<Stretch, 1> pressed_in_t2{{{2.0, 26.75}}};
 constexpr std::array<Stretch, 1> squeezed_in_t3{{{1.5, 27.0}}};
 constexpr std::array<Stretch, 1> squeezed_in_t4{{{2.5, 15.0}}};
 constexpr std::array<Stretch, 1> lifted_in_t4{{{8.5, 13.0}}};
-// The times between one hand's coming back and the other's letting go.
+// The times between the return of one hand and the release of the other.
 constexpr std::array<Stretch, 4> pressed_in_t5{
     {{2.5, 5.0}, {8.5, 10.0}, {13.5, 15.0}, {18.5, 20.0}}};
 

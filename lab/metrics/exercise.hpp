@@ -16,7 +16,7 @@ struct Stretch {
 };
 
 /// The actions of a task's hands that metrics depend on, with the task's default options. A metric
-/// of an action that the task does not have is not measured.
+/// is not measured in a task without its action.
 struct Exercise {
     /// True if the sides take turns: the vibration of a side's body counts only while the side
     /// follows. Otherwise both sides push, and count all the time.

@@ -13,7 +13,7 @@ namespace {
 constexpr double butterworth_2 = 0.70710678118654752440; // 1 / (2 sin(pi/4))
 constexpr std::array butterworth_4{0.54119610014619698440, 1.30656296487637652786};
 
-/// tan(pi f T): the frequency at which the bilinear transform meets f.
+/// Returns tan(pi f T), which makes the bilinear transform exact at the frequency f.
 double warped(const Cutoff& cutoff)
 {
     const double angle = 0.5 * base::two_pi * cutoff.hertz * cutoff.tick_s;

@@ -12,14 +12,15 @@
 
 namespace hapnet::lab::metrics {
 
-/// The frequency at which a filter begins to pass, in hertz, and its sampling.
+/// The cutoff frequency of a filter, in hertz, and its sampling.
 struct Cutoff {
     double hertz = 20.0;
     double tick_s = 0.001;
 };
 
-/// A filter's section of second order, or of first with b2 = a2 = 0: y = b0 x + b1 x' + b2 x'' -
-/// a1 y' - a2 y''. In the transposed direct form II, whose rounding stays small at low cutoffs.
+/// A filter section of second order, or of first order with b2 = a2 = 0: y = b0 x + b1 x' + b2 x''
+/// - a1 y' - a2 y''. It has the transposed direct form II, whose rounding stays small at low
+/// cutoffs.
 class Section {
 public:
     struct Coefficients {
@@ -45,11 +46,11 @@ private:
     double second_ = 0.0;
 };
 
-// Butterworth filters by the bilinear transform with the cutoff where it is meant to be: the gain
-// there is 1/sqrt(2). The bits are the same everywhere.
+// Butterworth filters by the bilinear transform, prewarped so that the gain at the cutoff is
+// exactly 1/sqrt(2). The bits are the same everywhere.
 
 [[nodiscard]] Section first_order_high_pass(const Cutoff& cutoff);
-/// `quality` is 1/sqrt(2) for a filter of this section alone.
+/// Makes a section. `quality` is 1/sqrt(2) for a filter of this section alone.
 [[nodiscard]] Section second_order_high_pass(const Cutoff& cutoff, double quality);
 [[nodiscard]] Section second_order_low_pass(const Cutoff& cutoff, double quality);
 
@@ -63,7 +64,7 @@ struct ByOrder {
 };
 
 inline constexpr base::Quantity vibration_format{base::length_kind, 0.0};
-/// Texts have the values as lengths.
+/// In a text the values are lengths.
 constexpr auto fields_of(base::Tag<ByOrder>)
 {
     return base::fields(
@@ -73,16 +74,16 @@ constexpr auto fields_of(base::Tag<ByOrder>)
         base::field("fourth", &ByOrder::fourth, vibration_format, "with a filter of fourth order"));
 }
 
-/// The root mean square of the part of `signal` above `cutoff`, in the signal's unit, by
+/// Returns the root mean square of the part of `signal` above `cutoff`, in the signal's unit, by
 /// Butterworth high-passes of first, second and fourth order. The filters see every sample. Only
-/// the samples that `counts` marks enter the mean; all do when it is empty. Before its first
+/// the samples that `counts` marks enter the mean; all do when `counts` is empty. Before its first
 /// sample, the signal is assumed to have had that value. nullopt when no sample counts.
 [[nodiscard]] std::optional<ByOrder> vibration_of(std::span<const double> signal,
                                                   std::span<const std::uint8_t> counts,
                                                   const Cutoff& cutoff);
 
-/// The root mean square of `signal` between two cutoffs, by a high- and a low-pass of second
-/// order. nullopt when it is empty.
+/// Returns the root mean square of `signal` between two cutoffs, by a high-pass and a low-pass of
+/// second order. nullopt when the signal is empty.
 [[nodiscard]] std::optional<double> band_vibration_of(std::span<const double> signal,
                                                       const Cutoff& from, const Cutoff& to);
 

@@ -9,13 +9,14 @@
 
 namespace hapnet::lab::metrics {
 
-// Metrics as one JSON object, its keys the names of the fields; by side a list of two, null where
-// there is no value.
+// Metrics as one JSON object whose keys are the names of the fields. A value by side is a list of
+// two, null where there is no value.
 
-/// Exact: metrics_from(to_json(m)) == m, as long as all numbers are finite.
+/// Returns the metrics as JSON. It is exact: metrics_from(to_json(m)) == m, as long as all numbers
+/// are finite.
 [[nodiscard]] nlohmann::ordered_json to_json(const Metrics& metrics);
 
-/// Returns nullopt when a key is missing or its value cannot be read.
+/// Reads metrics. Returns nullopt when a key is missing or its value cannot be read.
 [[nodiscard]] std::optional<Metrics> metrics_from(const nlohmann::json& json);
 
 } // namespace hapnet::lab::metrics

@@ -24,13 +24,13 @@ namespace {
 constexpr double vibration_above_hz = 20.0;
 constexpr double tugging_above_hz = 2.0;
 constexpr double felt_below_hz = 300.0;
-// A peer that learns late of the session's start has to catch up first. The effect of that is
-// included in the discrepancy only.
+// A peer that learns late of the session's start must catch up first. Only the discrepancy includes
+// the effect of that.
 constexpr double catching_up_s = 0.5;
 constexpr double path_every_s = 0.010;
 constexpr double fallen_m = 0.025; // half the height to which the body is lifted
 
-/// A trace as columns, and where its samples stand in time.
+/// A trace as columns, with the times of its samples.
 struct TraceColumns {
     Exercise exercise;
     std::vector<Columns> sides;
@@ -39,13 +39,13 @@ struct TraceColumns {
 
     [[nodiscard]] std::size_t count() const { return sides[0].body_x.size(); }
 
-    /// The first sample at or after a time.
+    /// Returns the first sample at or after a time.
     [[nodiscard]] std::size_t index_at(double seconds) const
     {
         const double index = std::ceil((seconds - begin_s) / tick_s - 1e-6);
         return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(count())));
     }
-    /// The first sample at which all have caught up.
+    /// Returns the first sample at which all peers have caught up.
     [[nodiscard]] std::size_t steady() const { return index_at(begin_s + catching_up_s); }
     [[nodiscard]] std::span<const double> cut(const std::vector<double>& column,
                                               const Stretch& stretch) const
@@ -54,7 +54,7 @@ struct TraceColumns {
         const std::size_t end = std::max(begin, index_at(stretch.end_s));
         return std::span{column}.subspan(begin, end - begin);
     }
-    /// No part of it is missing.
+    /// True if the trace contains the whole stretch.
     [[nodiscard]] bool covers(const Stretch& stretch) const
     {
         const double end_s = begin_s + static_cast<double>(count()) * tick_s;

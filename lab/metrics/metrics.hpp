@@ -17,8 +17,8 @@
 
 namespace hapnet::lab::metrics {
 
-/// Values of A and of B. Among more than two hands, the larger value of the hands that act as A,
-/// and of those that act as B.
+/// Values of A and of B. With more than two hands, the larger value of the hands that act as A, and
+/// of those that act as B.
 template <typename Value>
 using BySide = std::array<std::optional<Value>, 2>;
 
@@ -29,27 +29,27 @@ inline constexpr std::size_t judged_press = 1;
 /// The index of the slowest of the frequencies.
 inline constexpr std::size_t slow_press = 0;
 
-/// The metrics of a session, A to L, as measured. SI units. A metric that the task does not
-/// exercise is nullopt. scores_of() relates metrics to the unimpaired session where that is needed.
+/// The measured metrics of a session, A to L. SI units. A metric that the task does not exercise is
+/// nullopt. scores_of() relates metrics to the unimpaired session where that is needed.
 /// docs/design/metrics.md explains what each one can show and what it cannot.
 struct Metrics {
     device::Task task = device::Task::p1;
     double scored_s = 0.0; // how long all sides were running
 
-    /// A: root mean square of the body's x above 20 Hz, metres; in a task by turns only while the
-    /// side follows.
+    /// A: root mean square of the body's x above 20 Hz, metres. In a task by turns it counts only
+    /// while the side follows.
     BySide<ByOrder> body_vibration_m{};
-    /// B: dynamic stiffness by the frequency of pressing (press_hertz) and the side that presses,
-    /// N/m: its storage and its loss.
+    /// B: dynamic stiffness by the frequency of pressing (press_hertz) and the pressing side, N/m:
+    /// its storage and its loss.
     std::array<BySide<double>, press_hertz.size()> stiffness_n_per_m{};
     std::array<BySide<double>, press_hertz.size()> loss_stiffness_n_per_m{};
-    /// C: mean ||F_L| - |F_R|| over the mean force, at equal times; of the first two hands.
+    /// C: mean ||F_L| - |F_R|| over the mean force, at equal times, for the first two hands.
     std::optional<double> force_discrepancy{};
-    /// D: |x_L - x_R| of the body at equal times, metres. Among more than two copies, or several
-    /// bodies: of the two copies that are farthest apart in the mean.
+    /// D: |x_L - x_R| of the body at equal times, metres. With more than two copies, or several
+    /// bodies, it is that of the two copies that are farthest apart in the mean.
     std::optional<Spread> discrepancy_m{};
     /// D of a body that turns: the angle between its orientations in two copies at equal times,
-    /// radians; of the two copies that are farthest apart in the mean. nullopt when none turns.
+    /// radians, for the two copies that are farthest apart in the mean. nullopt when no body turns.
     std::optional<Spread> turned_apart_rad{};
     /// D of each shared body, in the order of their ids.
     std::vector<BodyApart> bodies{};
@@ -57,33 +57,36 @@ struct Metrics {
     BySide<ByOrder> force_vibration_n{};
     /// E2: the same above 2 Hz, where two copies pull at each other slowly.
     BySide<ByOrder> force_above_2hz_n{};
-    /// E between 20 and 300 Hz. Not weighted by how well a stylus transmits: no table of that was
-    /// in reach.
+    /// E between 20 and 300 Hz. It is not weighted by the transmission of a stylus: no table of
+    /// that was available.
     BySide<double> felt_vibration_n{};
-    /// F: the share of the time of commanded contact, 0 to 1, without 0.02 N of it.
+    /// F: the share of the time of commanded contact, 0 to 1, in which the contact force is less
+    /// than 0.02 N.
     BySide<double> contact_lost{};
     /// G: of the force on the hand in x.
     BySide<ForceSteps> force_steps{};
-    /// H: the most energy that the hands together got out of their devices, joules.
+    /// H: the greatest energy that the hands together got out of their devices, joules.
     std::optional<double> energy_taken_j{};
     /// I: mean force on the hand at a speed of about 0.1 m/s, newtons.
     BySide<double> drag_n{};
     /// J: root mean square of the distance, in x, of a side's body from the path it is to follow.
     BySide<double> path_rms_m{};
-    /// J: in how many lifts a side's body is down, by half, while it is to be held up.
+    /// J: the number of lifts in which a side's body falls below half of the height to which it is
+    /// lifted, while it is to be held up.
     std::optional<double> drops{};
-    /// J: how far a side's body was beyond where the static cube stops it, metres.
+    /// J: the distance of a side's body beyond the point where the static cube stops it, metres.
     BySide<double> overshoot_m{};
-    /// K: from a tap of A to the motion of B's body, seconds.
+    /// K: the time from a tap of A to the motion of B's body, seconds.
     std::optional<double> response_s{};
     /// L: the similarity of the force on the resting hand to the force on the pressing hand.
     std::optional<Similarity> similarity{};
-    /// Traffic of the busiest direction between any two, with the headers of UDP over IPv4, bit/s.
+    /// The traffic of the busiest direction between any two sides, with the headers of UDP over
+    /// IPv4, bit/s.
     std::optional<double> rate_bit_per_s{};
 
     friend bool operator==(const Metrics&, const Metrics&) = default;
 };
-/// Values by side are a list of two, null where there is no value.
+/// A value by side is a list of two, null where there is no value.
 constexpr auto fields_of(base::Tag<Metrics>)
 {
     using M = Metrics;

@@ -52,15 +52,15 @@ Interval interval_of_quantile(std::vector<double> values, double share)
     constexpr double infinite = std::numeric_limits<double>::infinity();
     std::ranges::sort(values);
     const auto count = static_cast<double>(values.size());
-    // The sum is of logarithms: with a thousand values the first chances are too small for a
-    // double.
+    // The sum is computed from logarithms: with a thousand values the first probabilities are too
+    // small for a double.
     const auto chance_of = [&](double k) {
         return std::exp(std::lgamma(count + 1.0) - std::lgamma(k + 1.0) -
                         std::lgamma(count - k + 1.0) + k * std::log(share) +
                         (count - k) * std::log1p(-share));
     };
     Interval interval{-infinite, infinite};
-    double fewer = 0.0; // the chance that fewer than `rank` lie below the true quantile
+    double fewer = 0.0; // probability that fewer than `rank` values lie below the true quantile
     for (std::size_t rank = 1; rank <= values.size(); ++rank) {
         fewer += chance_of(static_cast<double>(rank - 1));
         if (fewer <= tail) interval.low = values[rank - 1];

@@ -17,8 +17,8 @@ double power(double x, double exponent)
     return x > 0.0 ? base::exp(exponent * base::log(x)) : 0.0;
 }
 
-/// The unevenness with which the errors exceed those of an order: the variance of the logarithms
-/// of their ratios.
+/// Returns how unevenly the errors exceed those of an order: the variance of the logarithms of
+/// their ratios.
 double misfit(std::span<const StepError> errors, double reference, double order)
 {
     double sum = 0.0, squares = 0.0;

@@ -28,9 +28,10 @@ constexpr std::array<Lapses, 9> lapse_pairs{{{0.0, 0.0},
                                              {0.05, 0.0},
                                              {0.05, 0.025},
                                              {0.05, 0.05}}};
-/// The evidence that the second core needs over the first, as the logarithm of a likelihood ratio:
-/// the difference of 4 in Akaike's criterion from which Burnham and Anderson ("Model Selection and
-/// Multimodel Inference", 2002, 2.6) call the other one considerably less supported.
+/// The evidence for the second core that is required to prefer it, as the logarithm of a likelihood
+/// ratio. It corresponds to a difference of 4 in Akaike's criterion, from which Burnham and
+/// Anderson ("Model Selection and Multimodel Inference", 2002, 2.6) call the other model
+/// considerably less supported.
 constexpr double evidence = 2.0;
 constexpr int steps_max = 40;
 constexpr double tenth_of_seeds = 0.1;
@@ -54,7 +55,7 @@ Rise rise_of(Core core, double z)
     return {1.0 - passes, rate * passes};
 }
 
-/// Two parameters: location, and the logarithm of the scale.
+/// The two parameters: location, and the logarithm of the scale.
 struct Parameters {
     double location = 0.0;
     double log_scale = 0.0;
@@ -79,7 +80,7 @@ public:
         return sum;
     }
 
-    /// One step of Fisher scoring: expected curvature, so that it always climbs.
+    /// Makes one step of Fisher scoring. It uses the expected curvature, so it always climbs.
     [[nodiscard]] Parameters step(const Parameters& p) const
     {
         const double scale = base::exp(p.log_scale);
@@ -117,7 +118,7 @@ private:
     double gain_;
 };
 
-/// Uphill until it is flat; a step that leads down, or far away, is halved.
+/// Climbs until the posterior is flat. A step that leads down, or far away, is halved.
 Parameters climbed(const Posterior& posterior, Parameters p, const Interval& within)
 {
     constexpr double flat = 1e-7;
@@ -168,22 +169,22 @@ std::vector<FailCount> counts_of(std::span<const LevelOutcome> outcomes,
     return counts;
 }
 
-/// p50 of one sample: `beyond` when it is not within the levels.
+/// Returns the p50 of one sample: `beyond` when it is not within the levels.
 double half_of(std::span<const FailCount> counts, const Psychometric& curve)
 {
     const double at = std::max(curve.level_of(half_of_seeds), 0.0);
     return at > counts.back().level ? beyond : at;
 }
 
-/// With one level there is nothing to fit.
+/// Returns the p50 with one level, where there is nothing to fit.
 double half_of(std::span<const FailCount> counts)
 {
     if (counts.size() > 1) return half_of(counts, fitted(counts));
     return 2.0 * counts[0].failed < counts[0].of ? beyond : counts[0].level;
 }
 
-/// The fewest failures, of `of` sessions, that a two-sided sign test at 5 % takes for one half; 1
-/// at least. The same number is the fewest passes.
+/// Returns the fewest failures, of `of` sessions, that a two-sided sign test at 5 % accepts as one
+/// half; at least 1. It is also the fewest passes.
 double fewest_for_half(double of)
 {
     constexpr double tail = 0.025;
@@ -198,8 +199,8 @@ double fewest_for_half(double of)
     return std::max(k, 1.0);
 }
 
-/// The gap between two levels in which half is passed by; nullopt when one of the levels, or the
-/// order of them, leaves it open where that is.
+/// Returns the gap between two levels in which one half is crossed. Returns nullopt when one of the
+/// levels, or the order of them, leaves its place open.
 std::optional<Interval> gap_of(std::span<const FailCount> counts)
 {
     const double fewest = fewest_for_half(counts.front().of);
@@ -215,8 +216,8 @@ std::optional<Interval> gap_of(std::span<const FailCount> counts)
     return Interval{low, high};
 }
 
-/// Student's 97.5th percentile: the expansion for many degrees of freedom (Abramowitz and Stegun
-/// 26.7.5), 0.003 too small for three.
+/// Returns Student's 97.5th percentile by the expansion for many degrees of freedom (Abramowitz and
+/// Stegun 26.7.5). It is 0.003 too small for three degrees.
 double students(double degrees)
 {
     const double z = base::normal_quantile(0.975);
@@ -280,7 +281,8 @@ Psychometric fitted(std::span<const FailCount> counts)
     std::optional<Psychometric> best;
     double highest = 0.0;
     for (const Core core : {Core::logistic, Core::gumbel}) {
-        // Gumbel only on evidence: where the levels show no shape, half-way is the honest guess.
+        // Gumbel's core needs evidence: where the levels show no shape, half-way is the honest
+        // estimate.
         double to_beat = highest + (core == Core::gumbel ? evidence : 0.0);
         Parameters p{crossing(scaled), 0.0};
         for (const auto& [early, late] : lapse_pairs) {

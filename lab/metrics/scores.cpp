@@ -13,10 +13,10 @@ namespace hapnet::lab::metrics {
 
 namespace {
 
-// A number that is not finite stays so: it fails where it is judged.
+// A number that is not finite stays so, and fails when it is judged.
 
-/// Returns the part of `value` beyond `reference`. Both are root mean squares, of signals that do
-/// not correlate.
+/// Returns the part of `value` beyond `reference`. Both are root mean squares of uncorrelated
+/// signals.
 double excess(double value, double reference)
 {
     const double squares = value * value - reference * reference;
@@ -36,7 +36,7 @@ std::optional<Value> worse_side(const BySide<Value>& sides)
     return worse(sides[0], sides[1]);
 }
 
-/// Side by side against the perfect network; nullopt where either has none.
+/// Compares both sides with those on the perfect network; nullopt where one of the two is missing.
 template <typename Value, typename Compare>
 BySide<Value> against(const BySide<Value>& impaired, const BySide<Value>& perfect, Compare compare)
 {
@@ -68,9 +68,9 @@ const auto ratio_of = [](double value, double reference) -> std::optional<double
 using Complex = std::complex<double>;
 
 /// The stiffness that both hands feel, and the one that they should feel, at one frequency of
-/// pressing. Each is the sum over both hands: both press on the same coupling, and each alone has
-/// an error because the hands waver meanwhile. Only one hand counts where the session ended before
-/// the other's turn. nullopt: nothing is due.
+/// pressing. Each is the sum over both hands. Both hands press on the same coupling, and each alone
+/// has an error because the hands waver meanwhile. Only one hand counts where the session ended
+/// before the other's turn. nullopt: there is no such stiffness.
 struct FeltStiffness {
     Complex felt;
     Complex due;

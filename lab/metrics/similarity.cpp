@@ -21,7 +21,7 @@ constexpr double lag_max_s = 0.5;
 constexpr double coarse_s = 0.010; // step of the coarse search for the lag
 constexpr double length_min_s = 1.0;
 
-/// Sums over pairs of two signals, from which follow their means and variances.
+/// Sums over pairs of two signals, from which their means and variances follow.
 struct Pairs {
     double count = 0.0;
     double a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
@@ -50,8 +50,8 @@ std::vector<double> compressed(std::span<const double> force)
     return sensation;
 }
 
-/// The correlation of `a` and of `b` `lag` samples later, every `stride` samples; -1 when one does
-/// not vary.
+/// Returns the correlation of `a` with `b` `lag` samples later, at every `stride`-th sample; -1
+/// when one of them is constant.
 double correlation(std::span<const double> a, std::span<const double> b, std::size_t lag,
                    std::size_t stride)
 {
@@ -79,7 +79,8 @@ std::size_t best_lag(std::span<const double> a, std::span<const double> b, const
     return best;
 }
 
-/// Wang et al., IEEE Transactions on Image Processing 13(4), 2004, with its constants.
+/// Returns the structural similarity of Wang et al., IEEE Transactions on Image Processing 13(4),
+/// 2004, with its constants.
 double structural_similarity(const Pairs& pairs)
 {
     const double range = base::log1p(strongest_n / weakest_felt_n);

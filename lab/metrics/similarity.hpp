@@ -9,10 +9,10 @@
 
 namespace hapnet::lab::metrics {
 
-/// The similarity of one force to another once the delay is taken out.
+/// The similarity of one force to another after compensation of the delay.
 struct Similarity {
     double share = 0.0; // 1: identical; can be below 0
-    double lag_s = 0.0; // delay that was taken out
+    double lag_s = 0.0; // delay that was compensated
 
     friend bool operator==(const Similarity&, const Similarity&) = default;
 };
@@ -23,12 +23,12 @@ constexpr auto fields_of(base::Tag<Similarity>)
                         base::member("lag_s", &Similarity::lag_s, "The lag that was taken out."));
 }
 
-/// The similarity of the force that one hand receives to the force that the other hand sends,
-/// robust against delay, after the haptic structural similarity (HSSIM) of Sakr, Georganas and
-/// Zhao: the received force is shifted back by the lag, 0 to 0.5 s, at which the two correlate
-/// best; forces are compressed to log(1 + |F| / 0.05 N), as sensation is; the structural similarity
-/// index is taken in windows of 50 ms and its mean returned. nullopt when there is less than 1 s,
-/// or no force.
+/// Returns the similarity of the force that one hand receives to the force that the other hand
+/// sends. It is robust against delay, after the haptic structural similarity (HSSIM) of Sakr,
+/// Georganas and Zhao. The received force is shifted back by the lag, 0 to 0.5 s, at which the two
+/// correlate best. Forces are compressed to log(1 + |F| / 0.05 N), as sensation is. The structural
+/// similarity index is computed in windows of 50 ms, and its mean is returned. nullopt when there
+/// is less than 1 s, or no force.
 [[nodiscard]] std::optional<Similarity>
 similarity_of(std::span<const double> sent, std::span<const double> received, double tick_s);
 

@@ -10,7 +10,7 @@
 
 namespace hapnet::lab::metrics {
 
-/// The distribution of values, in their own unit; `std` is the population's.
+/// The distribution of values, in their own unit; `std` is the population's standard deviation.
 struct Spread {
     double mean = 0.0;
     double min = 0.0;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double amplitude_min_m = 10e-6;
 
-/// A turning pointer: cosine and sine, each step a rotation by the same angle. That costs a tenth
-/// of the functions themselves, and its error grows by about 1e-16 a step.
+/// A rotating pointer: cosine and sine, each step a rotation by the same angle. That costs a tenth
+/// of the functions themselves, and its error grows by about 1e-16 per step.
 struct Pointer {
     double c = 1.0;
     double s = 0.0;
@@ -59,8 +59,8 @@ std::optional<DynamicStiffness> stiffness_of(std::span<const double> force_on_ha
     Pointer at;
     SignalPart force_part, place_part;
     for (std::size_t i = 0; i < count; ++i) {
-        // Values are relative to the first one: the constant part is far larger than the swinging
-        // part.
+        // Values are relative to the first one: the constant part is far larger than the
+        // oscillating part.
         force_part.add(force[i] - force[0], at);
         place_part.add(place[i] - place[0], at);
         at.turn(by);

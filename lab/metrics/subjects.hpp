@@ -9,14 +9,14 @@
 
 namespace hapnet::lab::metrics {
 
-/// One value for each subject: the mean of all that belong to it, so that a subject counts once,
-/// however many trials and seeds it has. Statistics over seeds, taken of these values, are between
-/// subjects. A value without a subject stands for itself.
+/// One value for each subject: the mean of all values of the subject. So a subject counts once,
+/// however many trials and seeds it has, and statistics of these values are between subjects. A
+/// value without a subject counts by itself.
 class SubjectMeans {
 public:
     void add(const std::optional<std::string>& subject, double value);
 
-    /// The means in the order in which the subjects first came.
+    /// Returns the means in the order in which the subjects first occurred.
     [[nodiscard]] std::vector<double> means() const;
     [[nodiscard]] std::size_t count() const { return sums_.size(); }
 

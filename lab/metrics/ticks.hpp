@@ -7,7 +7,8 @@
 
 namespace hapnet::lab::metrics {
 
-/// The number of ticks nearest to `seconds`, which are not negative and no longer than a session.
+/// Returns the number of ticks nearest to `seconds`, which is not negative and no longer than a
+/// session.
 [[nodiscard]] inline std::size_t ticks_in(double seconds, double tick_s)
 {
     return static_cast<std::size_t>(std::lround(seconds / tick_s));

@@ -35,12 +35,12 @@ std::string sentence(const Wording& words, double value, char relation, double l
                        relation, limit * words.scale, words.unit);
 }
 
-/// The limits of a tier that a session does not keep, in words, and their metrics.
+/// The limits of a tier that a session does not keep, as texts, and their metrics.
 struct Objections {
     std::vector<std::string> sentences;
     std::vector<std::string_view> metrics;
 
-    // A number that is not finite keeps no limit.
+    // A number that is not finite exceeds every limit.
 
     void at_most(std::optional<double> value, double limit, const Wording& words)
     {

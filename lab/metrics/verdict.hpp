@@ -31,7 +31,7 @@ struct Judgement {
     std::vector<std::string_view> short_of;
 };
 
-/// Judges the metrics that the task exercised; the others count as kept.
+/// Judges the metrics that the task exercised. The other metrics count as kept.
 [[nodiscard]] Judgement judge(const Scores& scores, const Criteria& criteria);
 
 } // namespace hapnet::lab::metrics

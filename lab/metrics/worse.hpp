@@ -12,7 +12,7 @@
 namespace hapnet::lab::metrics {
 
 // These functions return the larger of two values of one metric, which is the worse one. A number
-// that is not finite is worse than any: it fails where it is judged.
+// that is not finite is worse than any other, so that it fails when it is judged.
 
 [[nodiscard]] inline double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
@@ -29,13 +29,13 @@ namespace hapnet::lab::metrics {
             .reversals = larger(a.reversals, b.reversals)};
 }
 
-/// Compares by the mean.
+/// Returns the spread with the larger mean.
 [[nodiscard]] inline Spread larger(const Spread& a, const Spread& b)
 {
     return a.mean > b.mean || std::isnan(a.mean) ? a : b;
 }
 
-/// The only one that there is, or the larger.
+/// Returns the larger value, or the only one that exists.
 template <typename Value>
 [[nodiscard]] std::optional<Value> worse(const std::optional<Value>& a,
                                          const std::optional<Value>& b)

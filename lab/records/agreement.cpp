@@ -20,7 +20,7 @@ using metrics::worse;
 using record::Phase;
 using record::TickRow;
 
-// Once both let go, the copies have this long to agree again.
+// The time that the copies have to agree again after both hands let go.
 constexpr base::Duration settling_time = 2s;
 
 std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& moments,
@@ -37,7 +37,7 @@ std::optional<ForceDiscrepancy> force_discrepancy_of(const std::vector<Moment>& 
     return ForceDiscrepancy{spread->mean, spread->max};
 }
 
-/// The moments that say whether the copies agree again.
+/// Returns the moments at which the copies should agree again.
 std::vector<const Moment*> settled_moments(const std::vector<Moment>& moments)
 {
     std::optional<base::TimePoint> let_go;
@@ -50,7 +50,7 @@ std::vector<const Moment*> settled_moments(const std::vector<Moment>& moments)
     return settled;
 }
 
-/// Counts how often one side of the moments names another owner than before.
+/// Counts the moments at which one side names another owner than before.
 class Handovers {
 public:
     void note(std::uint16_t owner)

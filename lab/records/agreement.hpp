@@ -27,7 +27,7 @@ constexpr auto fields_of(base::Tag<ForceDiscrepancy>)
                         base::member("max", &ForceDiscrepancy::max));
 }
 
-/// Shares of time, 0 to 1. A task was played only while a hand touched.
+/// Shares of time, 0 to 1. A task is played only while a hand touches.
 struct TouchShares {
     double a = 0.0;
     double b = 0.0;
@@ -53,24 +53,24 @@ template <typename Figure>
     return figure ? std::optional<Figure>{unit * *figure} : std::nullopt;
 }
 
-/// The agreement of the copies of one body at equal times. Metres and radians.
+/// The agreement of the copies of one body at equal times, in metres and radians.
 struct BodyAgreement {
     RecordedBody body{};
-    /// |x_A - x_B| while both are running; nullopt when they never are.
+    /// |x_A - x_B| while both sides are running; nullopt when they never are.
     std::optional<metrics::Spread> discrepancy_x{};
     /// The distance in space, under the same conditions.
     std::optional<metrics::Spread> discrepancy{};
-    /// The angle between their orientations; nullopt, too, for a body that cannot turn.
+    /// The angle between the orientations; nullopt also for a body that cannot turn.
     std::optional<metrics::Spread> turned_apart{};
-    /// The largest distance and angle from 2 s after both let go to the end of the hands-off tail;
-    /// nullopt when that was not reached, and the angle of a body that cannot turn.
+    /// The largest distance and angle from 2 s after both let go to the end of the hands-off tail.
+    /// nullopt when that time was not reached; the angle also for a body that cannot turn.
     std::optional<double> settled_discrepancy{};
     std::optional<double> settled_turned_apart{};
-    /// The number of changes of its owner while both were running, by the side that saw more of
-    /// them; nullopt when the records do not name the owner.
+    /// The number of changes of the body's owner while both sides were running, by the side that
+    /// saw more of them; nullopt when the records do not name the owner.
     std::optional<std::uint64_t> handovers{};
-    /// The share of that time, 0 to 1, in which both say that the same peer owns it. While both
-    /// hands move it, each side says its own.
+    /// The share of that time, 0 to 1, in which both sides name the same peer as its owner. While
+    /// both hands move the body, each side names itself.
     std::optional<double> same_owner{};
 };
 
@@ -110,24 +110,24 @@ constexpr auto fields_of(base::Tag<BodyAgreement>)
                      "owner; while both hands move a body each names itself."));
 }
 
-/// The agreement of both copies of the scene at equal times, namely at each tick of A. B's state
-/// then is interpolated linearly between its ticks.
+/// The agreement of both copies of the scene at equal times: at each tick of A. B's state is
+/// interpolated linearly between its ticks.
 struct Agreement {
     /// The agreement of each shared body.
     std::vector<BodyAgreement> bodies;
-    /// |x_A - x_B| of the body that is farthest apart in the mean, in metres, while both are
+    /// |x_A - x_B| of the body that is farthest apart in the mean, in metres, while both sides are
     /// running; nullopt when they never are.
     std::optional<metrics::Spread> discrepancy_x;
-    /// ||F_A| - |F_B|| of the forces that the devices were told, after their governors, while both
+    /// ||F_A| - |F_B|| of the forces sent to the devices, after their governors, while both sides
     /// are running and touch; nullopt when they never do.
     std::optional<ForceDiscrepancy> force_discrepancy;
     /// ||F_A| - |F_B|| of the contact forces, before the governor, under the same conditions.
     std::optional<ForceDiscrepancy> contact_force_discrepancy;
-    /// The largest of all bodies.
+    /// The largest value of all bodies.
     std::optional<double> settled_discrepancy;
     std::optional<double> settled_turned_apart;
-    /// The shares of the time with both running in which the sides touched the cube; all zero when
-    /// they never both were.
+    /// The shares of the time with both sides running in which they touched the cube; all zero when
+    /// they were never both running.
     TouchShares touching;
     /// The time in which both were running.
     base::Duration scored{};
@@ -135,7 +135,8 @@ struct Agreement {
     double overlap = 0.0;
 };
 
-/// The bodies by their numbers in the scene; records that do not say these have none.
+/// Returns the bodies with their numbers in the scene as keys. Bodies whose records do not hold a
+/// number have none.
 [[nodiscard]] base::Entries<BodyAgreement> numbered(const std::vector<BodyAgreement>& bodies);
 
 constexpr auto fields_of(base::Tag<Agreement>)

@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 using metrics::worse;
 
-// A run that exceeds these is not worth a number.
+// A run that exceeds these limits is not valid.
 constexpr double missed_share_max = 0.005;
 constexpr double overlap_min = 0.95;
 
@@ -54,8 +54,8 @@ std::int64_t id_of(const record::Record& record)
     return id.is_number_integer() ? id.get<std::int64_t>() : 0;
 }
 
-/// Returns the worse of the values of two pairs of copies of one body, quantity by quantity. A
-/// quantity that only one pair has is that one's.
+/// Returns the worse of the values of two pairs of copies of one body, for each quantity. If only
+/// one pair has a quantity, its value is taken.
 BodyAgreement worse_of(const BodyAgreement& a, const BodyAgreement& b)
 {
     return {.body = a.body,

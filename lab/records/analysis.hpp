@@ -19,8 +19,8 @@
 
 namespace hapnet::lab::records {
 
-/// The analysis of two records of one session: how far the copies were apart, what the network did,
-/// how well both loops kept their time, and whether the run counts.
+/// The analysis of two records of one session: how far the copies were apart, how the network
+/// treated the messages, how well both loops kept their time, and whether the run counts.
 struct Analysis {
     Agreement agreement;
     Path a_to_b;
@@ -28,7 +28,7 @@ struct Analysis {
     Loop a;
     Loop b;
     Clock clock;
-    /// Why the run does not count, for people; empty: it does.
+    /// The reasons why the run does not count, for people; empty: it does.
     std::vector<std::string> invalid_because;
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
@@ -52,7 +52,8 @@ constexpr auto fields_of(base::Tag<Analysis>)
                                      "The reasons as a list of texts; empty when valid."));
 }
 
-/// Refuses records that cannot be compared; a run that went badly is analysed and not valid.
+/// Analyses two records. Fails for records that cannot be compared. A run that went badly is
+/// analysed and marked as not valid.
 [[nodiscard]] base::Result<Analysis> analyse(const record::Record& a, const record::Record& b);
 
 /// The analysis of two peers of a session, the lower id as A.
@@ -61,7 +62,7 @@ struct PairAnalysis {
     std::int64_t id_b = 0;
     Analysis analysis;
 
-    [[nodiscard]] std::string name() const; // both ids, such as "1-2"
+    [[nodiscard]] std::string name() const; // ids of both peers, such as "1-2"
 };
 
 /// The analysis of one session of three to eight peers: every two of their records are compared.
@@ -73,16 +74,19 @@ struct CircleAnalysis {
     std::vector<std::string> invalid_because;
 
     [[nodiscard]] bool valid() const { return invalid_because.empty(); }
-    /// The pair whose copies were farthest apart on average; nullptr: none was ever compared.
+    /// Returns the pair whose copies were farthest apart on average; nullptr: none was ever
+    /// compared.
     [[nodiscard]] const PairAnalysis* worst() const;
-    /// The largest value of all pairs; nullopt: no pair was measured so far into the session.
+    /// Returns the largest value of all pairs; nullopt: no pair was recorded so far into the
+    /// session.
     [[nodiscard]] std::optional<double> settled_discrepancy() const;
     [[nodiscard]] std::optional<double> settled_turned_apart() const;
-    /// For each body and each of its quantities the worst value of all pairs.
+    /// Returns, for each body and each of its quantities, the worst value of all pairs.
     [[nodiscard]] std::vector<BodyAgreement> bodies() const;
 };
 
-/// Refuses what analyse() refuses of any two, naming them by their place.
+/// Analyses three to eight records. Fails when analyse() fails for any two of them. The error names
+/// the two by their place.
 [[nodiscard]] base::Result<CircleAnalysis> analyse_circle(std::span<const record::Record> records);
 
 } // namespace hapnet::lab::records

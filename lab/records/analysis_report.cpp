@@ -24,7 +24,7 @@ std::optional<double> part(const std::optional<T>& whole, auto member, double un
     return unit * ((*whole).*member);
 }
 
-/// True if there is more to say of bodies than the distances in x.
+/// True if the bodies need more than the distances in x.
 bool has_many_or_turning(const std::vector<BodyAgreement>& bodies)
 {
     return bodies.size() > 1 || (bodies.size() == 1 && bodies.front().body.can_turn);

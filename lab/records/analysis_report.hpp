@@ -46,11 +46,11 @@ constexpr auto fields_of(base::Tag<PairReport>)
 
 /// The output of `analyse --json`: docs/formats/statistics.md.
 struct AnalysisReport {
-    /// The analysis of two peers; of more, that of the first two by their ids, with the worst
-    /// discrepancies of all pairs.
+    /// The analysis of the two peers. With more peers it is that of the first two by their ids,
+    /// with the worst discrepancies of all pairs.
     Analysis all;
     /// The pair whose copies were farthest apart on average. The inner nullopt: no pair was ever
-    /// compared. The outer nullopt: there are two peers only.
+    /// compared. The outer nullopt: there are only two peers.
     std::optional<std::optional<std::string>> worst_pair{};
     std::optional<base::Entries<PairReport>> pairs{};
     std::optional<base::Entries<LoopReport>> peers{};
@@ -71,20 +71,21 @@ constexpr auto fields_of(base::Tag<AnalysisReport>)
             .left_out_if_none());
 }
 
-/// An analysis for programs: units in the names, null where there is nothing to say.
+/// Returns an analysis for programs: units are in the names; null stands for a missing value.
 [[nodiscard]] nlohmann::ordered_json to_json(const Analysis& analysis);
 
-/// An analysis for people, as tables: distances, touch, network, loops.
+/// Returns an analysis for people, as tables: distances, touch, network, loops.
 [[nodiscard]] std::vector<TextTable> tables_of(const Analysis& analysis);
 
-/// The difference of two clocks in words; empty when both records were made by one clock.
+/// Describes the difference of two clocks; empty when one clock made both records.
 [[nodiscard]] std::string clock_text(const Clock& clock);
 
-/// An analysis for people, as lines of text: the tables, and whether the run counts.
+/// Returns an analysis for people, as lines of text: the tables, and whether the run counts.
 [[nodiscard]] std::string to_table(const Analysis& analysis);
 
-/// Reports of more than two peers. They have the keys of the first two by their ids, but the
-/// discrepancies of the worst pair. `pairs` has all of each pair, `peers` the loop of each.
+/// Reports on more than two peers. They have the keys of the report on the first two by their ids,
+/// with the discrepancies of the worst pair. `pairs` has the data of each pair, `peers` the loop of
+/// each peer.
 [[nodiscard]] nlohmann::ordered_json to_json(const CircleAnalysis& circle);
 [[nodiscard]] std::vector<TextTable> tables_of(const CircleAnalysis& circle);
 [[nodiscard]] std::string to_table(const CircleAnalysis& circle);

@@ -30,7 +30,7 @@ std::set<std::uint16_t> numbers_in(const record::Record& record)
     return numbers;
 }
 
-/// The body with that number, as the scene describes it.
+/// Returns the body with that number, as the scene describes it.
 RecordedBody described(const std::optional<scene::Description>& scene, std::uint16_t number,
                        bool has_rows)
 {

@@ -14,26 +14,27 @@
 
 namespace hapnet::lab::records {
 
-/// The bodies that a session shared, as its records hold them: those that both have rows of, or
-/// else the only one that the ticks hold. Never empty.
+/// Returns the bodies that a session shared, as its records hold them: the bodies of which both
+/// records have rows, or else the only body that the ticks hold. The result is never empty.
 [[nodiscard]] std::vector<RecordedBody> bodies_shared_in(const record::Record& a,
                                                          const record::Record& b);
 
-/// "cube", or "body 3" of one without a name; "the body" when its record does not say.
+/// Returns the name of a body: "cube", or "body 3" if it has no name; "the body" when its record
+/// does not name it.
 [[nodiscard]] std::string name_of(const RecordedBody& body);
-/// "the cube", within a sentence.
+/// Returns the name within a sentence: "the cube".
 [[nodiscard]] std::string named_in_text(const RecordedBody& body);
 
 using virtual_time::Pose;
 
-/// The poses of a body after the ticks of one side. Refers into the side.
+/// The poses of a body after the ticks of one side. It refers to the side.
 class Poses {
 public:
     Poses(const Side& side, const RecordedBody& body) : side_{side}, body_{body} {}
 
-    /// Returns nullopt when its row is lost.
+    /// Returns the pose after a tick; nullopt when its row is lost.
     [[nodiscard]] std::optional<Pose> at(const record::TickRow& tick) const;
-    /// The peer whose copy of the body counted, as the side saw it; 0: not recorded.
+    /// Returns the peer whose copy of the body counted, as the side saw it; 0: not recorded.
     [[nodiscard]] std::uint16_t owner_at(const record::TickRow& tick) const;
 
 private:
@@ -56,7 +57,7 @@ public:
         : a_{session.a, body}, b_{session.b, body}
     {}
 
-    /// The distance and the angle at a moment; nullopt: a row of it is lost.
+    /// Returns the distance and the angle at a moment; nullopt: one of the rows is lost.
     [[nodiscard]] std::optional<Apart> apart_at(const Moment& moment) const;
 
     [[nodiscard]] const Poses& a() const { return a_; }

@@ -19,8 +19,8 @@ namespace hapnet::lab::records {
 
 namespace {
 
-/// The form of a vector for people: the endings of its columns' names, and the number of their
-/// units in one SI unit.
+/// The printed form of a vector: the endings of its columns' names, and the number of its units in
+/// one SI unit.
 template <typename V>
 struct Shown;
 template <>

@@ -20,7 +20,7 @@ bool takes_part(const record::TickRow& row)
            row.phase == record::Phase::alone;
 }
 
-/// Calls take(seconds from the start, how far apart) while both take part.
+/// Calls take(seconds from the start, distance) while both sides take part.
 template <typename Take>
 void for_each_apart(const Session& session, const RecordedBody& body,
                     const std::vector<Moment>& moments, const Take& take)

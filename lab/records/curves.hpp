@@ -23,12 +23,12 @@ struct BodyCurves {
     std::vector<TimedValue> turned_apart_deg; // empty: the body cannot turn
 };
 
-/// The course of a session over time: every tick in which a peer took part, hands off included.
+/// The curves of a session over time: every tick in which a peer took part, hands off included.
 struct SessionCurves {
     std::vector<TimedValue> cube_a_mm; // x of the cube in each copy
     std::vector<TimedValue> cube_b_mm;
     std::vector<TimedValue> apart_mm;  // |x_A - x_B| of the first body at equal times
-    std::vector<TimedValue> force_a_n; // length of the force that each device was told
+    std::vector<TimedValue> force_a_n; // size of the force sent to each device
     std::vector<TimedValue> force_b_n;
     std::vector<double> late_a_us; // lateness of each tick in the curves above
     std::vector<double> late_b_us;

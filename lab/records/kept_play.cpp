@@ -41,7 +41,7 @@ nlohmann::json ids_but(std::size_t seat, std::size_t players)
     return ids;
 }
 
-/// The head of the file, with the keys of a daemon's.
+/// Returns the head of the file, with the keys that a daemon writes.
 nlohmann::json kept_config(const virtual_time::Setting& setting, std::size_t seat,
                            const device::GovernorLimits& limits)
 {
@@ -70,7 +70,7 @@ nlohmann::json kept_config(const virtual_time::Setting& setting, std::size_t sea
             {"peers", ids_but(seat, setting.players.size())},
             {"wait_for", setting.wait_for},
             {"tick_ns", tick_ns_of_records},
-            // One clock for all, as on one machine; no machine has it.
+            // All players have one clock, as on one machine. No real machine has this id.
             {"boot_id", "virtual time"}};
 }
 

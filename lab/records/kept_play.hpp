@@ -11,8 +11,8 @@
 
 namespace hapnet::lab::records {
 
-/// The record of a session that a daemon would have written: the head of its file, and its rows in
-/// the order in which they were written.
+/// The record of a session in the form that a daemon writes it: the head of its file, and its rows
+/// in the order in which they were written.
 struct KeptRecord {
     nlohmann::json config;
     record::Layout layout{};
@@ -20,8 +20,9 @@ struct KeptRecord {
 };
 
 /// Plays a session in virtual time to the end of its hands-off tail, and keeps a record of each
-/// player as hapnet-peer does: analyse, export and replay take it. A pure function of the setting.
-/// The error: no session can be played so, its messages are sealed, or it never began.
+/// player as hapnet-peer does. The programs analyse, export and replay accept it. A pure function
+/// of the setting. Fails when no session can be played with this setting, when its messages are
+/// sealed, or when it never began.
 [[nodiscard]] base::Result<std::vector<KeptRecord>>
 play_and_keep(const virtual_time::Setting& setting);
 

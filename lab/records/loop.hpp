@@ -12,19 +12,19 @@
 
 namespace hapnet::lab::records {
 
-/// The lateness that 99 % of the ticks of a valid session do not exceed. A tick of lateness is a
-/// tick of error.
+/// The lateness that 99 % of the ticks of a valid session do not exceed. A tick that is late by one
+/// tick has an error of one tick.
 inline constexpr base::Duration tick_lateness_max{std::chrono::milliseconds{1}};
 
 /// The punctuality of one peer's haptic loop, from T0 to its end.
 struct Loop {
     std::uint64_t ticks = 0;
     std::uint64_t missed = 0;
-    /// The rate; nullopt with fewer than two ticks.
+    /// The rate of the ticks; nullopt with fewer than two ticks.
     std::optional<double> rate_hz;
     std::optional<base::Quantiles> late;
 
-    /// Share of the ticks due that were skipped, 0 to 1.
+    /// Returns the share of the due ticks that were skipped, 0 to 1.
     [[nodiscard]] double missed_share() const
     {
         const auto due = static_cast<double>(ticks + missed);

@@ -29,7 +29,7 @@ constexpr std::string_view magic{"\x89MCAP0\r\n", 8};
 constexpr std::size_t chunk_bytes = 1 << 20;
 constexpr std::uint32_t no_checksum = 0;
 
-/// Little-endian.
+/// Appends a value in little-endian order.
 void put(std::string& out, std::unsigned_integral auto value)
 {
     for (std::size_t i = 0; i < sizeof value; ++i)

@@ -14,7 +14,7 @@
 namespace hapnet::lab::records {
 
 /// Writes MCAP (https://mcap.dev/spec), version 0, profile ros2: messages in chunks with an index,
-/// neither compressed nor with checksums.
+/// without compression and checksums.
 class McapWriter {
 public:
     /// Takes the bytes of the file in their order.
@@ -22,13 +22,14 @@ public:
 
     explicit McapWriter(Take take);
 
-    /// Adds a schema of encoding ros2msg; all schemas and channels come before the first message.
+    /// Adds a schema of encoding ros2msg. All schemas and channels must be added before the first
+    /// message.
     [[nodiscard]] std::uint16_t add_schema(std::string_view name, std::string_view text);
     /// Adds a channel whose messages are encoded as CDR.
     [[nodiscard]] std::uint16_t add_channel(std::uint16_t schema, std::string_view topic);
 
-    /// `time_ns`: the time of logging and of publishing, in nanoseconds since the zero of the
-    /// file's times.
+    /// Adds a message. `time_ns` is the time of logging and of publishing, in nanoseconds since the
+    /// zero of the file's times.
     void write(std::uint16_t channel, std::uint64_t time_ns, std::string_view data);
 
     /// Ends the file.

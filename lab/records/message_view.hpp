@@ -18,7 +18,8 @@ struct MessageView {
     base::TimePoint sent{};
 };
 
-/// Returns nullopt for bytes that are no state message, or one with a stamp that no clock can have.
+/// Reads a message. Returns nullopt for bytes that are not a state message, or for one with an
+/// impossible time stamp.
 [[nodiscard]] std::optional<MessageView> view_of(const record::MessageRow& row);
 
 } // namespace hapnet::lab::records

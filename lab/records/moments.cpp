@@ -9,7 +9,7 @@ namespace hapnet::lab::records {
 
 namespace {
 
-// Ticks of B further apart than this have time without data between them, not a straight line.
+// Between ticks of B that are further apart than this, there are no data: the gap is not bridged.
 constexpr base::Duration gap_max{std::chrono::milliseconds{10}};
 
 } // namespace

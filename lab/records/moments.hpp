@@ -10,7 +10,7 @@
 namespace hapnet::lab::records {
 
 /// One moment of a session on both sides: a tick of A and the ticks of B around it. Both ticks of B
-/// are the same one when B has a tick at that very time.
+/// are the same one when B has a tick at exactly that time.
 struct Moment {
     const record::TickRow* a;
     const record::TickRow* before;
@@ -25,11 +25,12 @@ struct Moment {
     {
         return a->touching && before->touching && after->touching;
     }
-    /// ||F_A| - |F_B|| of one of the forces that a tick holds.
+    /// Returns ||F_A| - |F_B|| of one of the forces of a tick.
     [[nodiscard]] double force_distance(base::Force record::TickRow::*force) const;
 };
 
-/// The moments at which both sides have data, one for each such tick of A. Refers into the session.
+/// Returns the moments at which both sides have data, one for each tick of A. They refer to the
+/// session.
 [[nodiscard]] std::vector<Moment> moments_of(const Session& session);
 
 } // namespace hapnet::lab::records

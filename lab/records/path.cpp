@@ -90,7 +90,7 @@ Path path_of(const Session& session, Way way)
               .in_flight = 0};
     const std::uint64_t highest = path.arrived.sent;
     const std::uint64_t before = first_sequence(session, way, messages) - 1;
-    // A message that came was sent, even if the sender was killed before it wrote that down.
+    // A message that arrived was sent, even if the sender was killed before it wrote that down.
     path.arrived.sent = std::max<std::uint64_t>(sent.highest, highest) - before;
     path.in_flight = path.arrived.sent - (highest - std::min(highest, before));
     if (highest > 0) {

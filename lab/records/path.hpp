@@ -16,12 +16,12 @@ namespace hapnet::lab::records {
 
 /// The outcome of the state messages of one session in one direction.
 struct Path {
-    /// The counts of messages. `sent` is that of the sender's record. Among more than two peers the
-    /// record counts only the messages to the first other peer; for the rest, `sent` is the highest
-    /// sequence that arrived.
+    /// The counts of messages. `sent` comes from the sender's record. With more than two peers the
+    /// record counts only the messages to the first other peer. For the others, `sent` is the
+    /// highest sequence that arrived.
     base::ArrivalCounts arrived;
-    /// Share of the sequences up to the highest received that never came, 0 to 1; nullopt when
-    /// nothing came. Messages after it may still have been on their way.
+    /// The share of the sequences up to the highest received one that never arrived, 0 to 1;
+    /// nullopt when nothing arrived. Later messages may still have been on their way.
     std::optional<double> loss;
     /// The time from the sender's stamp to the kernel's receive stamp.
     std::optional<base::Quantiles> delay;
@@ -34,7 +34,7 @@ struct Path {
     /// end, or lost.
     std::uint64_t in_flight = 0;
 
-    /// The number of messages up to the highest one received that never came.
+    /// Returns the number of messages up to the highest received one that never arrived.
     [[nodiscard]] std::uint64_t lost() const { return arrived.sent - arrived.received - in_flight; }
 };
 
@@ -69,10 +69,10 @@ struct ArrivedMessage {
     bool is_duplicate = false; // true if another copy has arrived before
 };
 
-/// The messages in the order of arrival.
+/// Returns the messages in the order of arrival.
 [[nodiscard]] std::vector<ArrivedMessage> arrived_messages(const Session& session, Way way);
 
-/// The first sequence that the receiver's record can have.
+/// Returns the first sequence that the receiver's record can have.
 [[nodiscard]] std::uint32_t first_sequence(const Session& session, Way way,
                                            std::span<const ArrivedMessage> messages);
 

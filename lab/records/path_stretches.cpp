@@ -19,7 +19,7 @@ constexpr std::size_t messages_min = 50; // messages of a stretch, on average
 
 double in_ms(base::Duration duration) { return 1e3 * base::to_seconds(duration); }
 
-/// Messages without further copies, by their sequence.
+/// Messages without duplicates, by their sequence.
 using Messages = std::vector<ArrivedMessage>;
 
 Messages messages_of(const Session& session, Way way)
@@ -32,7 +32,7 @@ Messages messages_of(const Session& session, Way way)
     return messages;
 }
 
-/// The smallest of 1, 2 and 5 times powers of ten seconds that is not below `least`.
+/// Returns the smallest of 1, 2 and 5 times powers of ten seconds that is not below `least`.
 base::Duration round_stretch(base::Duration least)
 {
     for (base::Duration power = 100ms;; power *= 10) {
@@ -52,7 +52,8 @@ base::Duration stretch_of(base::Duration length, std::initializer_list<std::size
     return round_stretch(least);
 }
 
-/// Takes the messages of one direction apart by when they were sent, since the session's start.
+/// Sorts the messages of one direction into stretches by the times at which they were sent, since
+/// the session's start.
 class Stretches {
 public:
     Stretches(base::Duration stretch, base::Duration length) : stretch_{stretch}
@@ -72,7 +73,7 @@ public:
         delays_[place].add(delay);
     }
 
-    /// Takes `count` lost messages that were sent evenly between two times.
+    /// Adds `count` lost messages that were sent evenly between two times.
     void add_lost(std::uint64_t count, base::Duration from, base::Duration to)
     {
         if (count == 0) return;
@@ -106,7 +107,7 @@ public:
     }
 
 private:
-    /// A time before the start has the first place.
+    /// Returns the place of a time. A time before the start has the first place.
     [[nodiscard]] std::size_t place_of(base::Duration sent) const
     {
         return static_cast<std::size_t>(std::max(sent, base::Duration{0}) / stretch_);
@@ -117,8 +118,8 @@ private:
     std::vector<base::DurationSample> delays_; // delays in each stretch
 };
 
-/// Returns when the first message of the session was sent, by the sender's record; nullopt: it does
-/// not say.
+/// Returns when the first message of the session was sent, by the sender's record; nullopt: the
+/// record does not say.
 std::optional<base::TimePoint> first_sent(const Session& session, Way way)
 {
     const Side& sender = way == Way::a_to_b ? session.a : session.b;

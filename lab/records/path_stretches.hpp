@@ -11,7 +11,7 @@
 
 namespace hapnet::lab::records {
 
-/// Lowest, median and highest delay, in milliseconds.
+/// The lowest, the median and the highest delay, in milliseconds.
 struct DelaySpan {
     double low = 0.0;
     double median = 0.0;
@@ -22,12 +22,12 @@ struct DelaySpan {
 struct PathStretch {
     double from_s = 0.0; // since the session's start, on A's clock
     double to_s = 0.0;
-    /// The number of messages sent. Losses after the highest sequence that arrived are not known.
+    /// The number of messages sent. Losses after the highest sequence that arrived are unknown.
     std::uint64_t sent = 0;
     std::uint64_t received = 0;
     std::optional<DelaySpan> delay_ms{}; // nullopt: no message arrived
 
-    /// The share that was lost; nullopt: none was sent.
+    /// Returns the share of lost messages; nullopt: none was sent.
     [[nodiscard]] std::optional<double> loss() const
     {
         if (sent == 0) return std::nullopt;
@@ -35,7 +35,7 @@ struct PathStretch {
     }
 };
 
-/// One direction of a session over time. A message is there once, however many copies came.
+/// One direction of a session over time. A message counts once, however many copies arrived.
 struct PathOverTime {
     std::vector<PathStretch> stretches; // consecutive, up to the last one with a message sent
     std::vector<double> delays_ms;      // delays of all messages in the stretches
@@ -47,9 +47,10 @@ struct PathsOverTime {
     PathOverTime b_to_a;
 };
 
-/// Both directions in stretches of 1, 2 or 5 times a power of ten: at most 100 of them, with 50
-/// messages each on average where there are that many. The time at which a lost message was sent is
-/// taken to lie evenly between those of the messages around it that arrived.
+/// Returns both directions in stretches of 1, 2 or 5 times a power of ten: at most 100 of them,
+/// with 50 messages each on average where there are enough messages. The times at which lost
+/// messages were sent are assumed to lie evenly between those of the messages around them that
+/// arrived.
 [[nodiscard]] PathsOverTime paths_over_time(const Session& session);
 
 } // namespace hapnet::lab::records

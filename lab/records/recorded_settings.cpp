@@ -49,7 +49,7 @@ struct WrittenConfig {
     double duration_s = 0.0;
     std::string task;
     std::optional<std::string> boot_id{};
-    /// The ids of the others. Older records have one other peer and no list.
+    /// The ids of the other peers. Older records have one other peer and no list.
     std::optional<std::vector<std::uint16_t>> peers{};
     std::optional<std::uint16_t> wait_for{};
     std::string scene_toml;
@@ -105,8 +105,7 @@ std::string_view validate(const WrittenConfig& config)
     return config.mount.scale > 0.0 ? "" : "'mount': the scale is not positive";
 }
 
-/// Reads the way in which the peer played these bodies with the others: its algorithm, and when it
-/// sent.
+/// Reads how the peer played these bodies with the others: its algorithm, and when it sent.
 base::Result<void> read_play(const WrittenConfig& written, std::span<const peer::SharedBody> bodies,
                              peer::Settings& settings)
 {

@@ -18,7 +18,7 @@ struct RecordedSettings {
     device::Mount mount;
 };
 
-/// Returns the settings of a record with this configuration. The error names the key.
+/// Returns the settings of a record with this configuration. The error names the wrong key.
 [[nodiscard]] base::Result<RecordedSettings> settings_of(const nlohmann::json& config);
 
 } // namespace hapnet::lab::records

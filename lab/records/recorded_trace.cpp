@@ -15,7 +15,8 @@ namespace hapnet::lab::records {
 
 namespace {
 
-// Rows further apart than this have time without data between them, not a straight line.
+// Between rows that are further apart than this, there are no data. Such a gap does not count as
+// covered.
 constexpr base::Duration bridge_max{std::chrono::milliseconds{10}};
 
 virtual_time::Sample sample_of(const record::TickRow& row)
@@ -31,7 +32,7 @@ virtual_time::Sample sample_of(const record::TickRow& row)
             .remote_touching = row.remote_touching};
 }
 
-/// The rows of a side while it was running, on A's clock, asked in the order of time.
+/// The rows of a side while it was running, on A's clock. They must be read in the order of time.
 class RunningRows {
 public:
     /// `clock` relates the clock of these rows, as B's, to A's; it is empty if the rows are A's.
@@ -56,7 +57,8 @@ public:
         std::vector<virtual_time::Pose> further; // poses of the bodies after the first
         bool is_bridged = false;                 // true: a row is missing around that time
     };
-    /// Returns the reading at a time from begin() to end(), not before the last one asked for.
+    /// Returns the reading at a time from begin() to end(). The time must not be before that of the
+    /// last call.
     [[nodiscard]] Reading at(base::TimePoint time)
     {
         const base::TimePoint here = clock_.to_b(time);
@@ -97,8 +99,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Returns the largest distance and angle of each body over all these pairs; empty: hands were not
-/// off long enough in one.
+/// Returns the largest distance and angle of each body over all these pairs; empty: in one pair the
+/// hands were not off long enough.
 std::vector<virtual_time::Settled> settled_in(std::span<const Session> sessions,
                                               const std::vector<RecordedBody>& bodies)
 {
@@ -118,7 +120,7 @@ std::vector<virtual_time::Settled> settled_in(std::span<const Session> sessions,
     return settled;
 }
 
-/// One of a session: what it has recorded, and its clock against A's.
+/// One peer of a session: its recorded part, and its clock relative to A's.
 struct Party {
     const Side* side = nullptr;
     Clock clock{};

@@ -20,7 +20,7 @@ namespace hapnet::lab::records {
 
 namespace {
 
-/// The device and governor of a record: the device reports what the row of each tick holds.
+/// The device and governor of a record. The device reports the values in the row of each tick.
 class RecordedRig {
 public:
     explicit RecordedRig(const RecordedSettings& settings)
@@ -75,7 +75,7 @@ std::size_t index_of(const std::vector<std::uint16_t>& others, std::uint16_t id)
     return static_cast<std::size_t>(std::ranges::find(others, id) - others.begin());
 }
 
-/// Infinite where one of two is no number and the other is.
+/// Returns the difference of two values; infinite where one is NaN and the other is not.
 double difference(const auto& a, const auto& b)
 {
     double most = 0.0;
@@ -89,7 +89,7 @@ double difference(const auto& a, const auto& b)
     return most;
 }
 
-/// One peer as it was.
+/// One peer, replayed.
 class Replayer {
 public:
     Replayer(const record::Record& record, const RecordedSettings& settings)
@@ -106,7 +106,7 @@ public:
             const record::MessageRow& message = messages[message_];
             side_.on_datagram(message.bytes, message.received_at, index_of(others_, message.from));
         }
-        // A session's own end comes by the clock; any other one was a person's decision.
+        // A session's own end follows from the clock. Any other end was a person's decision.
         if (row.phase == record::Phase::ended) side_.peer().leave(wire::ByeReason::interrupted);
         rig_.show(row);
         side_.step(row.at(), rig_);
@@ -214,7 +214,7 @@ base::Result<Replayed> replay(const record::Record& record,
 
     Replayed replayed;
     replayed.algorithm = peer::name_of(settings->peer.algorithm);
-    // A shared object always has to be named.
+    // A shared object always has to be named explicitly.
     replayed.is_the_recorded_one =
         !instead || (std::holds_alternative<peer::SharedObject>(*instead) &&
                      print_algorithm(*instead) == recorded);

@@ -24,10 +24,10 @@ struct ReplayedTick {
     base::Force recorded_contact;
     base::Force contact; // force of the scene on the hand, before the governor
     base::Force recorded_device;
-    base::Force device; // force that the governor let through to the device
+    base::Force device; // force from the governor to the device
 };
 
-/// A recorded session, replayed in virtual time.
+/// The result of replaying a recorded session in virtual time.
 struct Replayed {
     std::vector<ReplayedTick> ticks;
     std::size_t messages = 0;
@@ -36,19 +36,19 @@ struct Replayed {
     /// The largest differences between recorded and replayed forces, over all ticks and axes.
     double contact_difference_max_n = 0.0;
     double device_difference_max_n = 0.0;
-    /// The largest difference of the places and orientations of all bodies that the record has rows
-    /// of; nullopt: it has none.
+    /// The largest difference of the positions and orientations of all bodies of which the record
+    /// has rows; nullopt: it has none.
     std::optional<double> body_difference_max_m;
     std::optional<double> turn_difference_max_rad;
     /// The number of ticks in which a body has another owner than recorded; nullopt: the record
     /// names no owners.
     std::optional<std::uint64_t> other_owner_ticks;
-    /// The first tick with more than the tolerances.
+    /// The first tick whose differences exceed the tolerances.
     std::optional<std::uint64_t> differs_from;
     bool is_complete = false; // true if the last tick has phase `ended`: nothing is cut off
 };
 
-/// Rounding that a printed and read-again description of a session may leave.
+/// The rounding that may remain after the description of a session is printed and read again.
 inline constexpr double tolerance_n = 1e-9;
 inline constexpr double tolerance_m = 1e-9;
 inline constexpr double tolerance_rad = 1e-9;
@@ -91,11 +91,11 @@ constexpr auto fields_of(base::Tag<Replayed>)
             "Whether no tick differs."));
 }
 
-/// Plays one peer again on the cores that the daemon runs: the recorded messages arrive in the
-/// ticks that took them, and the recorded hand moves as it did, whatever force it is given. Another
-/// algorithm than the recorded one shows which forces it would have made of the same messages, but
-/// the hand moves as it did with the recorded one. The error says what in the record stands in the
-/// way: ticks that are missing or out of order, or a configuration that is incomplete. Rows have no
+/// Replays one peer on the cores that the daemon runs. The recorded messages arrive in the ticks
+/// that took them, and the recorded hand moves as it did, whatever force it is given. Another
+/// algorithm than the recorded one shows the forces that it would have made of the same messages,
+/// but the hand moves as it did with the recorded one. Fails when ticks of the record are missing
+/// or out of order, or when its configuration is incomplete; the error says which. Rows have no
 /// checksum. If the same forces come out again, both the recorded forces and their inputs are
 /// intact.
 [[nodiscard]] base::Result<Replayed> replay(const record::Record& record,
@@ -105,7 +105,7 @@ constexpr auto fields_of(base::Tag<Replayed>)
 [[nodiscard]] std::string to_table(const Replayed& replayed);
 
 [[nodiscard]] std::string replay_csv_header();
-/// Time in seconds since `zero`.
+/// Returns a tick as a line of CSV, with the time in seconds since `zero`.
 [[nodiscard]] std::string csv_line(const ReplayedTick& tick, base::TimePoint zero);
 
 } // namespace hapnet::lab::records

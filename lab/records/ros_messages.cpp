@@ -56,8 +56,8 @@ float64 x
 float64 y
 float64 z)";
 
-/// CDR (DDS-RTPS 2.2, section 10), little-endian: each number stands at a multiple of its size,
-/// counted from behind the four bytes that say so.
+/// A CDR message (DDS-RTPS 2.2, section 10), little-endian. Each number is aligned to a multiple of
+/// its size, counted from the end of the four bytes of the header.
 class CdrMessage {
 public:
     explicit CdrMessage(std::uint64_t time_ns)

@@ -61,7 +61,7 @@ std::optional<std::uint32_t> last_common_session(const record::Record& a, const 
     return std::nullopt;
 }
 
-/// The others of a peer by their ids, in the order of its roster; empty in older records.
+/// Returns the other peers by their ids, in the order of the peer's roster; empty in older records.
 std::vector<std::int64_t> others_of(const record::Record& record)
 {
     const auto ids = record.config.value("peers", nlohmann::json{});
@@ -72,8 +72,8 @@ std::vector<std::int64_t> others_of(const record::Record& record)
     return others;
 }
 
-/// The part of a record that belongs to a session which it knows, with one of the others. The
-/// newest terms count: the clock offset gets better with time.
+/// Returns the part of a record that belongs to a session with one of the others. The newest
+/// agreement counts, as the clock offset gets better with time.
 Side side_of(const record::Record& record, std::uint32_t session, std::int64_t peer_id)
 {
     const auto& rows = record.sessions;
@@ -112,7 +112,7 @@ Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& term
 
 Clock clock_of(const record::SessionRow& row)
 {
-    // Crystals are a tenth of that apart: more is a damaged row.
+    // The clocks of real machines differ by a tenth of that: more means a damaged row.
     constexpr double skew_max_ppm = 1000.0;
     const bool is_possible = std::abs(row.remote_skew_ppm) <= skew_max_ppm;
     return {.method = ClockMethod::echo,

@@ -22,10 +22,10 @@ enum class ClockMethod : std::uint8_t {
 
 constexpr auto names_of(base::Tag<ClockMethod>) { return base::names("same-boot", "echo"); }
 
-/// The relation of B's clock to A's.
+/// The relation of B's clock to A's clock.
 struct Clock {
     ClockMethod method = ClockMethod::same_boot;
-    /// B's clock minus A's, at the time `when` of A's.
+    /// B's clock minus A's, at the time `when` on A's clock.
     base::Duration offset{};
     base::Duration uncertainty{};
     base::TimePoint when{};
@@ -41,7 +41,7 @@ struct Clock {
         return on_a + offset + drift(skew, on_a);
     }
 
-    /// The growth of the difference since `when`.
+    /// Returns the growth of the difference since `when`.
     [[nodiscard]] base::Duration drift(double share, base::TimePoint at) const
     {
         if (share == 0.0) return {};
@@ -60,23 +60,23 @@ constexpr auto fields_of(base::Tag<Clock>)
         base::member("uncertainty_ms", &Clock::uncertainty, "The bound of its error."));
 }
 
-/// One peer's part of a session. Refers into its record.
+/// One peer's part of a session. It refers to the peer's record.
 struct Side {
     record::SessionRow terms;
-    /// The ticks from the first row of this session up to the next session's.
+    /// The ticks from the first row of this session up to that of the next session.
     std::span<const record::TickRow> ticks;
     /// All messages that the record holds. Each message says to which session it belongs.
     std::span<const record::MessageRow> messages;
     /// All body rows that the record holds, ascending in tick and number.
     std::span<const record::BodyRow> bodies{};
     std::int64_t peer_id = 0;
-    /// True if `sent_sequence` of its ticks counts the messages to the other side of this session.
+    /// True if `sent_sequence` of the ticks counts the messages to the other side of this session.
     bool numbers_sent = true;
-    /// The record has only the last seconds: messages before them are not lost.
+    /// True if the record has only the last seconds. Messages before them do not count as lost.
     bool begins_late = false;
 };
 
-/// The clock of the other peer against that of the record which holds this row.
+/// Returns the clock of the other peer relative to that of the record which holds this row.
 [[nodiscard]] Clock clock_of(const record::SessionRow& row);
 
 /// One of the bodies that a session shared.
@@ -84,21 +84,21 @@ struct RecordedBody {
     std::optional<std::uint16_t> number{}; // number in the scene, from 0; nullopt: not recorded
     std::string name{};                    // name in the scene; may be empty
     bool can_turn = false;
-    bool has_rows = false; // true: it has rows of its own; false: only the ticks have its place
+    bool has_rows = false; // the body has rows of its own; false: only the ticks have its position
 };
 
-/// A session as the records of two peers have it.
+/// A session as the records of two peers hold it.
 struct Session {
     Side a;
     Side b;
     Clock clock;
     base::Duration tick{};
-    std::string task; // as A's record names it; "" when it does not
+    std::string task; // as A's record names it; "" when it does not name a task
     std::vector<RecordedBody> bodies{};
 };
 
-/// The last session that both records know. Refers into both records. Refuses records that share
-/// none, or that one peer has written.
+/// Returns the last session that both records contain. It refers to both records. Fails for records
+/// that share no session, or that one peer has written.
 [[nodiscard]] base::Result<Session> common_session(const record::Record& a,
                                                    const record::Record& b);
 

@@ -10,7 +10,7 @@
 
 namespace hapnet::lab::records {
 
-/// Numbers for people, in rows and columns: a terminal shows them as text, a page as HTML.
+/// Numbers for people, in rows and columns. A terminal shows them as text, a page as HTML.
 struct TextTable {
     struct Row {
         std::string name;
@@ -26,14 +26,14 @@ struct TextTable {
     std::size_t cell_width = 10;        // characters per cell in a terminal
 };
 
-/// Lines of text: names to the left, cells to the right.
+/// Returns the table as lines of text: names to the left, cells to the right.
 [[nodiscard]] std::string to_text(const TextTable& table);
 
-/// Returns a number as a cell, with this number of decimals; "-" when there is none or when it is
+/// Returns a number as a cell, with this number of decimals; "-" when there is no value or it is
 /// not finite.
 [[nodiscard]] std::string number_text(std::optional<double> value, int decimals);
 
-/// A CSV without quoted cells as a table for people: columns of equal width.
+/// Returns a CSV without quoted cells as a table for people, with columns of equal width.
 [[nodiscard]] std::string aligned(std::string_view csv);
 
 } // namespace hapnet::lab::records

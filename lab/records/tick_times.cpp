@@ -10,7 +10,7 @@ std::vector<base::Duration> tick_times(const record::Record& record, base::TimeP
     std::vector<base::Duration> times;
     times.reserve(record.ticks.size());
     for (const record::TickRow& row : record.ticks) {
-        // The tick after a wake-up that came ticks late may be due before that one came.
+        // The tick after a wake-up that was ticks late may be due before that wake-up.
         const bool is_even = row.late < tick && (times.empty() || row.due - start > times.back());
         const base::TimePoint time = is_even ? row.due : row.at();
         if (time >= start) times.push_back(time - start);

@@ -10,10 +10,10 @@
 namespace hapnet::lab::records {
 
 /// Returns the times at which the ticks of a peer were due, counted from the start of a session, on
-/// the clock of the record. A session in virtual time can then tick in the same way. A tick that
-/// was late by a tick or more counts when it came, and missed ticks are left out. Smaller lateness
-/// is ignored: it delays sending as well as reading, and datagrams in virtual time take no time but
-/// the link's, so that some would be read a tick too early.
+/// the clock of the record. So a session in virtual time can tick in the same way. A tick that was
+/// late by a tick or more gets the time at which it ran, and missed ticks are left out. Smaller
+/// lateness is ignored. It delays sending as well as reading, and datagrams in virtual time take no
+/// time except on the link, so some would be read a tick too early.
 [[nodiscard]] std::vector<base::Duration> tick_times(const record::Record& record,
                                                      base::TimePoint start);
 

@@ -20,7 +20,7 @@ using Keys = std::vector<std::string_view>;
 
 constexpr page::Size panel{360.0, 240.0};
 
-/// A measure that is drawn against the axis.
+/// A measure that is drawn over the axis.
 struct Measure {
     std::string_view key;
     std::string_view title; // title of the group of figures
@@ -58,7 +58,7 @@ std::optional<Number> number_in(const std::string& text)
     return number;
 }
 
-/// The unit of all values of the axis; nullopt: they are words, or of several units.
+/// Returns the unit of all values of the axis; nullopt: they are words, or have several units.
 std::optional<std::string> unit_in(const Rows& rows)
 {
     std::optional<std::string> unit;
@@ -77,7 +77,8 @@ page::Axis axis_of(const Rows& rows, const std::optional<std::string>& unit)
     return axis;
 }
 
-/// A bar for each algorithm at each value, which is a word: the mean, with its interval.
+/// Returns a bar for each algorithm at each value, where the values are words: the mean, with its
+/// interval.
 page::Bars bars_of_means(const Rows& rows, std::string_view key)
 {
     page::Bars groups;
@@ -107,7 +108,7 @@ page::Bars bars_of_means(const Rows& rows, std::string_view key)
     return groups;
 }
 
-/// "Mean of 3 seeds; the band is ..."; `all` are the rows of all tasks.
+/// Returns "Mean of 3 seeds; the band is ...". `all` are the rows of all tasks.
 std::string caption_of(const Rows& rows, const Rows& all, std::string_view mark)
 {
     const std::size_t seeds = distinct(rows, "seed").size();
@@ -118,7 +119,7 @@ std::string caption_of(const Rows& rows, const Rows& all, std::string_view mark)
                                             : "One seed.";
 }
 
-/// One measure in one task; nullopt: it was not measured.
+/// Returns the figure of one measure in one task; nullopt: it was not measured.
 std::optional<page::Figure> figure_of(const Rows& rows, const Measure& measure,
                                       const std::optional<std::string>& unit)
 {
@@ -147,7 +148,7 @@ std::optional<page::Figure> figure_of(const Rows& rows, const Measure& measure,
     return figure;
 }
 
-/// Limits by the values of a parameter: the worst of the tasks.
+/// Returns the figure of the worst task's limits over the values of a parameter.
 page::Figure figure_of_limits(const Rows& rows, const std::optional<std::string>& unit)
 {
     const TableRow& first = rows.front();
@@ -181,7 +182,7 @@ page::Figure figure_of_limits(const Rows& rows, const std::optional<std::string>
     return figure;
 }
 
-/// The mean of a measure where all sessions of a value have it.
+/// Returns the mean of a measure if all sessions of a value have it.
 std::optional<double> mean_at(const Rows& rows, std::string_view key)
 {
     std::vector<double> values;
@@ -190,11 +191,11 @@ std::optional<double> mean_at(const Rows& rows, std::string_view key)
     return values.empty() ? std::nullopt : std::optional{mean_of(values)};
 }
 
-/// "every" or "deadband": the kind of a way of sending.
+/// Returns the kind of a send policy: "every" or "deadband".
 std::string kind_of(const std::string& sending) { return sending.substr(0, sending.find(':')); }
 
-/// A measure against the traffic that each way of sending needs: a curve for each algorithm, one of
-/// fixed rates and one of deadbands. nullopt: it was not measured.
+/// Returns a figure of a measure over the traffic that each send policy needs: for each algorithm a
+/// curve of fixed rates and one of deadbands. nullopt: it was not measured.
 std::optional<page::Figure> frontier_of(const Rows& rows, const Measure& measure)
 {
     const TableRow& first = rows.front();
@@ -227,8 +228,7 @@ std::optional<page::Figure> frontier_of(const Rows& rows, const Measure& measure
         .caption = "Each point is a way of sending, the mean of its seeds; dashed: deadbands."};
 }
 
-/// Adds figures of each measure against the rate of the network, where ways of sending were
-/// compared.
+/// Adds figures of each measure over the rate of the network, where send policies were compared.
 void add_frontiers(const Rows& rows, const std::vector<std::string>& sources, FigureGroups& groups)
 {
     if (rows.front().text("parameter") != "send") return;

@@ -40,7 +40,7 @@ std::vector<page::Point> points_of(const Rows& rows, std::string_view key)
     return page::thinned(points, points_max);
 }
 
-/// A value that is drawn of both sides over time.
+/// A value that is drawn for both sides over time.
 struct BothSides {
     std::string_view id;
     std::string_view title; // text after the algorithm's name
@@ -80,7 +80,7 @@ page::Figure both_sides_figure(const Rows& rows, const BothSides& both)
     return figure;
 }
 
-/// Draws the difference of two curves that lie on each other.
+/// Draws the difference of two curves that nearly coincide.
 page::Figure difference_figure(const Rows& rows)
 {
     const std::string algorithm = rows.front().text("algorithm");
@@ -94,7 +94,7 @@ page::Figure difference_figure(const Rows& rows)
     return figure;
 }
 
-/// Describes the visible result: how far copies are apart, and how a copy moves that follows.
+/// Describes the visible result: how far the copies are apart, and how a following copy moves.
 std::string apart_text(const Rows& rows)
 {
     constexpr double step_mm = 5.0; // no hand moves a cube by this much between two rows
@@ -137,7 +137,7 @@ std::size_t index_of(const std::vector<double>& values, std::optional<double> va
     return static_cast<std::size_t>(found - values.begin());
 }
 
-/// The tiers from the worst on, and their symbols in a field.
+/// The tiers, the worst first, with their symbols in a heat map.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> tiers{
     {{"unusable", "×"}, {"usable", "○"}, {"good", "●"}}};
 
@@ -148,7 +148,7 @@ std::size_t rank_of(const TableRow& row)
     return static_cast<std::size_t>(found - tiers.begin());
 }
 
-/// A field: the worst of the tasks, and what each says.
+/// Returns a cell of the heat map: the worst of the tasks, with the values of each task.
 page::HeatCell heat_cell(const Rows& rows)
 {
     const auto worst = std::ranges::min(rows, {}, rank_of);
@@ -161,14 +161,15 @@ page::HeatCell heat_cell(const Rows& rows)
                              row);
         if (row.number("turned_apart_deg"))
             cell.tip += in_words(", copies turned apart {turned_apart_deg:.2} deg", row);
-        // The reason why it misses the next tier: each metric with its value and its limit.
+        // The reason why the session misses the next tier: each metric with its value and its
+        // limit.
         if (const auto reason = row.text("limited_by"); !reason.empty())
             cell.tip += fmt::format("; {}", reason);
     }
     return cell;
 }
 
-/// One algorithm at one loss.
+/// Returns the heat map of one algorithm at one loss.
 page::Figure plane_map(const Rows& rows, const std::vector<double>& delays,
                        const std::vector<double>& jitters)
 {
@@ -196,12 +197,12 @@ page::Figure plane_map(const Rows& rows, const std::vector<double>& delays,
 
 // --- Errors against cost
 
-/// The colours, that of the finest value first.
+/// The colours. The finest value has the first one.
 constexpr std::array<std::string_view, 6> colours{"base",  "sep",    "dead-reckoning",
                                                   "other", "missed", "muted"};
 
-/// Draws for each value a curve over the number of seeds; for a single number of seeds a curve over
-/// the values.
+/// Draws a curve over the number of seeds for each value; for a single number of seeds, one curve
+/// over the values.
 void add_precision_figure(const Rows& rows, FigureGroup& group)
 {
     auto values = distinct(rows, "value");
@@ -237,7 +238,7 @@ void add_precision_figure(const Rows& rows, FigureGroup& group)
          .caption = in_words("{algorithm} in {task}: ", rows.front()) + words});
 }
 
-/// Returns the percentage of points that an algorithm bears in all these rows.
+/// Returns the percentage of points at which an algorithm is usable in all these rows.
 double borne_percent(const Rows& rows)
 {
     const auto points = split(rows, Keys{"point"});

@@ -10,17 +10,18 @@
 
 namespace hapnet::lab::report {
 
-/// Figures of a section that stand together, below a heading or behind a line of text; empty: they
-/// have none.
+/// Figures of a section that belong together, below a heading or after a line of text. The title is
+/// empty when there is neither.
 struct FigureGroup {
     std::string title;
     std::vector<page::Figure> figures;
-    /// Files from which the figures were made, besides those of their numbers.
+    /// The files from which the figures were made, besides those with their numbers.
     std::vector<std::string> origins{};
 };
 using FigureGroups = std::vector<FigureGroup>;
 
-// The figures of each section; none where the folder lacks their tables.
+// These functions return the figures of each section. They return none where the folder lacks the
+// tables.
 
 [[nodiscard]] FigureGroups table1_figures(const results::Results& results);
 /// The results of each seed of the closed-loop tasks.
@@ -30,7 +31,7 @@ using FigureGroups = std::vector<FigureGroup>;
 /// Limits of random loss and burst loss.
 [[nodiscard]] FigureGroups fig6b_figures(const results::Results& results);
 [[nodiscard]] FigureGroups curves_figures(const results::Results& results);
-/// Limits of the interval between messages: the rest of what a network must offer is in a table.
+/// Limits of the interval between messages. The other requirements on a network are in a table.
 [[nodiscard]] FigureGroups requirements_figures(const results::Results& results);
 /// Limits by filter and hands.
 [[nodiscard]] FigureGroups trust_figures(const results::Results& results);
@@ -38,11 +39,11 @@ using FigureGroups = std::vector<FigureGroup>;
 [[nodiscard]] FigureGroups axis_figures(const results::Results& results);
 /// Errors against cost: a group for each parameter and algorithm.
 [[nodiscard]] FigureGroups precision_figures(const results::Results& results);
-/// The share of points, over several parameters, that each algorithm bears.
+/// The share of points, over several parameters, at which each algorithm is usable.
 [[nodiscard]] FigureGroups points_figures(const results::Results& results);
 [[nodiscard]] FigureGroups fig7_figures(const results::Results& results);
 [[nodiscard]] FigureGroups qos_figures(const results::Results& results);
-/// The numbers of each claim against what it accepts: a figure for each unit.
+/// The numbers of each claim with its limits: a figure for each unit.
 [[nodiscard]] FigureGroups claims_figures(const results::Results& results);
 [[nodiscard]] FigureGroups real_time_figures(const results::Results& results);
 /// A group for each recorded session.

@@ -18,7 +18,7 @@ using Keys = std::vector<std::string_view>;
 
 constexpr page::Size half_of_width{440.0, 260.0};
 
-/// Limits, with words about what each found.
+/// Returns the limits, with descriptions of the searches' findings.
 Table with_words(const Table& limits)
 {
     Table table = with_column(limits, "above", [](const TableRow& row) -> results::Cell {
@@ -49,7 +49,7 @@ BarPattern measured(std::string series)
             "{status}"};
 }
 
-/// The worst of the tasks, beside the paper.
+/// Returns the figure of the worst task's limits, beside the paper's.
 page::Figure worst_figure(const Rows& rows)
 {
     const std::array bars{BarPattern{"paper", "paper_limit", "{paper_limit:g}",
@@ -89,7 +89,7 @@ page::Figure by_task_figure(const Rows& rows)
     return figure;
 }
 
-/// Returns the row with the least limit from each group of rows that these columns tell apart.
+/// Returns the row with the least limit of each group of rows with equal texts in these columns.
 Rows least_limits(const Rows& rows, const Keys& keys)
 {
     Rows least;
@@ -100,8 +100,8 @@ Rows least_limits(const Rows& rows, const Keys& keys)
     return least;
 }
 
-/// The share of the sessions that fail at each level, the curve that is fitted to them, and where
-/// it crosses one half, with the interval of that. `limit` is that of one task.
+/// Returns the share of the sessions that fail at each level, the fitted curve, and its crossing of
+/// one half with the interval. `limit` is that of one task.
 page::Curve failing_curve(const TableRow& limit, const Rows& sessions)
 {
     std::map<double, metrics::FailCount> counts;
@@ -134,8 +134,8 @@ page::Curve failing_curve(const TableRow& limit, const Rows& sessions)
     return curve;
 }
 
-/// Draws for each algorithm the share of the seeds that fail at each level, in the task that bears
-/// least.
+/// Draws for each algorithm the share of the seeds that fail at each level, in the task with the
+/// least limit.
 std::optional<page::Figure> failing_figure(const Rows& limits, const Rows& curves)
 {
     std::vector<page::Curve> drawn;
@@ -162,7 +162,7 @@ std::optional<page::Figure> failing_figure(const Rows& limits, const Rows& curve
             spread.empty() ? "" : ", and the bar there is " + spread)};
 }
 
-/// The limits of the tier that figures show, and that the paper has.
+/// Returns the limits of the tier that figures show and that the paper has.
 Rows usable_limits(Rows rows)
 {
     std::erase_if(rows, [](const TableRow& row) { return row.text("tier") == "good"; });
@@ -191,7 +191,7 @@ FigureGroups limits_figures(const results::Results& results, const Keys& impairm
     return groups;
 }
 
-/// A criterion of a session, drawn against the level.
+/// A criterion of a session, drawn over the level.
 struct Criterion {
     std::string_view name;
     std::string_view title;
@@ -214,7 +214,8 @@ constexpr std::array criteria_drawn{
               page::Scale::logarithmic,
               [](const metrics::Criteria& c) { return c.usable.force_vibration_max_n; }}};
 
-/// A point for each seed, and a line through the medians. `rows` are of one impairment and task.
+/// Adds a figure with a point for each seed, and a line through the medians. `rows` are of one
+/// impairment and task.
 void add_curve_figure(const Rows& rows, const Criterion& criterion,
                       const std::optional<metrics::Criteria>& criteria, FigureGroup& group)
 {
@@ -257,7 +258,8 @@ FigureGroups curves_figures(const results::Results& results)
     FigureGroups groups;
     for (const Rows& rows : split(results.rows("curves"), Keys{"impairment"})) {
         auto& group = groups.emplace_back(FigureGroup{in_words("{impairment}", rows.front()), {}});
-        // Every task on its own: a line through the worst of several would jump between them.
+        // Each task has its own figure: a line through the worst of several would jump between
+        // them.
         for (const Rows& of_task : split(rows, Keys{"task"}))
             for (const Criterion& criterion : criteria_drawn)
                 add_curve_figure(of_task, criterion, results.criteria(), group);

@@ -24,7 +24,7 @@ using records::PathStretch;
 constexpr page::Size half_page{520.0, 280.0};
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
-/// Calls draw(curve, path) for both directions, each with its look.
+/// Calls draw(curve, path) for both directions, each with its own style.
 template <typename Draw>
 void for_each_way(const PathsOverTime& paths, const Draw& draw)
 {
@@ -41,7 +41,7 @@ void add_delay(page::Curve& curve, const PathStretch& stretch)
     if (delay) curve.band.push_back({middle, {delay->low, delay->high}});
 }
 
-/// A stair: nothing is known of when within the stretch the messages were lost.
+/// Adds a stair: it is unknown when within the stretch the messages were lost.
 void add_loss(page::Curve& curve, const PathStretch& stretch)
 {
     const double percent = 100.0 * stretch.loss().value_or(gap);
@@ -65,7 +65,7 @@ bool is_empty(const PathsOverTime& paths)
     return paths.a_to_b.delays_ms.empty() && paths.b_to_a.delays_ms.empty();
 }
 
-/// Says how many messages seem to have come before they were sent; "" of none.
+/// Warns how many messages appear to have arrived before they were sent; "" if none.
 std::string warning_of(const PathsOverTime& paths)
 {
     std::size_t count = 0;

@@ -16,7 +16,7 @@ namespace hapnet::lab::report {
 
 namespace {
 
-/// Names that programs use, and those that people use.
+/// Names that programs use, and the words for people.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 9> names_for_people{
     {{"percent", "%"},
      {"of_100", "of 100"},
@@ -139,7 +139,7 @@ Table with_column(Table table, std::string key,
 std::string shown(std::optional<double> value, int decimals)
 {
     if (!value) return "–";
-    // No "-0.00": what is nothing at that many decimals has no sign.
+    // Avoids "-0.00": a value that rounds to zero at that many decimals has no sign.
     const bool is_nothing = std::abs(*value) < 0.5 * std::pow(10.0, -decimals);
     return fmt::format("{:.{}f}", is_nothing ? 0.0 : *value, decimals);
 }

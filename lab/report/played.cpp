@@ -24,7 +24,7 @@ namespace {
 using experiment::Experiment;
 using Words = std::vector<std::string>;
 
-/// "a, b and c"
+/// Joins words as "a, b and c".
 std::string listed(const Words& words)
 {
     if (words.size() < 2) return words.empty() ? "" : words.front();
@@ -49,7 +49,7 @@ std::string tasks_of(const Experiment& experiment)
     return fmt::format("task{} {}", names.size() == 1 ? "" : "s", listed(names));
 }
 
-/// True if an axis varies one of these keys, or one below it.
+/// True if an axis varies one of these keys, or a key below it.
 bool varies(const Experiment& experiment, std::initializer_list<std::string_view> keys)
 {
     return std::ranges::any_of(experiment.axes, [&](const experiment::Axis& axis) {
@@ -63,7 +63,7 @@ bool varies_network(const Experiment& experiment)
     return varies(experiment, {"both.", "up.", "down."});
 }
 
-/// "160 ms" of "160ms"; what does not begin with a digit stays.
+/// Returns "160 ms" for "160ms". A text that does not begin with a digit stays as it is.
 std::string spaced(std::string_view text)
 {
     const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
@@ -138,7 +138,7 @@ std::string axes_of(const Experiment& experiment)
     return axes.empty() ? "" : "with " + listed(axes);
 }
 
-/// The number of scenes and peers is told only where it is not the usual one.
+/// Describes the numbers of scenes and peers if they are not the usual ones.
 std::string party_of(const Experiment& experiment)
 {
     std::string text;
@@ -155,7 +155,7 @@ std::string party_of(const Experiment& experiment)
     return text;
 }
 
-/// "18 trials of 9 people", where recorded hands played; empty: they did not.
+/// Returns "18 trials of 9 people" if recorded hands played; otherwise empty.
 std::string people_of(const results::Run& run)
 {
     const auto found = run.manifest.find("people");
@@ -169,7 +169,7 @@ std::string people_of(const results::Run& run)
                        subjects == 1 ? "1 subject" : fmt::format("{} subjects", subjects));
 }
 
-/// Names the hands that played: "Simulated hands (nominal)".
+/// Describes the hands that played: "Simulated hands (nominal)".
 std::string hands_of(const Experiment& experiment, const std::string& people)
 {
     const bool is_varied = varies(experiment, {"hands"});
@@ -202,8 +202,8 @@ std::string words_of(const Experiment& experiment, const std::string& people)
                   "that follow their recordings give way to a force as the simulated hand does.";
 }
 
-/// Returns content that can be read as a file of this name, whatever the file holds. The sentence
-/// has only the names of scenes, of the ways of hands and of people.
+/// Returns contents that can be read as a file of this name, whatever the real file holds. The
+/// sentence needs only the names of scenes, of hands' motions and of people.
 base::Result<std::string> any_file(const std::string& name)
 {
     if (name.ends_with(".csv")) return std::string{"time_s,x_m,y_m,z_m\n0,0,0,0\n1,0,0,0\n"};
@@ -231,7 +231,7 @@ base::Result<Experiment> built_in(std::string_view name)
     return experiment::load_experiment(std::string{name}, none, {});
 }
 
-/// The built-in experiment of that title; nullopt of one's own.
+/// Returns the built-in experiment of that title; nullopt for a user's own.
 std::optional<Experiment> built_in_titled(const std::string& title)
 {
     for (const experiment::BuiltInExperiment& one : experiment::built_in_experiments()) {
@@ -241,7 +241,8 @@ std::optional<Experiment> built_in_titled(const std::string& title)
     return std::nullopt;
 }
 
-/// The built-in experiment whose seeds and seconds settle a limit or a claim; "" of other kinds.
+/// Returns the name of the built-in experiment whose seeds and seconds settle a limit or a claim;
+/// "" for other kinds.
 std::string_view built_in_of(const experiment::Kind& kind)
 {
     if (std::holds_alternative<experiment::Claims>(kind)) return "beat";

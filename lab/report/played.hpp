@@ -9,23 +9,23 @@
 
 namespace hapnet::lab::report {
 
-/// One sentence that says what was played: algorithms, tasks, seeds, hands, and what was varied.
-/// Empty when the manifest has no experiment that this version understands.
+/// Returns one sentence about the played sessions: algorithms, tasks, seeds, hands, and the varied
+/// parameters. Empty when the manifest has no experiment that this version understands.
 [[nodiscard]] std::string sentence_of(const results::Run& run);
 
-/// The network's conditions in words: "delay 160 ms", "A to B: ..." where the directions differ,
-/// and that it changes where it does. Empty for a perfect network.
+/// Describes the network's conditions: "delay 160 ms", "A to B: ..." where the directions differ,
+/// and that they change where they do. Empty for a perfect network.
 [[nodiscard]] std::string network_in_words(const emulator::Profile& profile);
 
-/// The amount that was played, and the amount that is meant to be: `played` and `meant`, each with
-/// `seeds` and `duration_s`. `meant` is the amount that the built-in experiment of the same title
-/// plays; `built_in` is true if there is one. For limits or claims of a user's own, `meant` is the
-/// amount that settles them; other experiments have none. The result is null where the
+/// Returns the amount that was played and the amount that is intended: `played` and `meant`, each
+/// with `seeds` and `duration_s`. `meant` is the amount that the built-in experiment of the same
+/// title plays; `built_in` is true if there is one. For limits or claims of a user's own, `meant`
+/// is the amount that settles them; other experiments have none. Returns null where the
 /// configuration cannot be read.
 [[nodiscard]] page::Json amounts_of(const results::Run& run);
 
-/// The title of an experiment. Empty where it has none. It is also empty where the experiment has
-/// axes, and the built-in experiment of this title has none: then it is another experiment.
+/// Returns the title of an experiment. Empty where it has none. Also empty where the experiment has
+/// axes and the built-in experiment of this title has none, since it is then another experiment.
 [[nodiscard]] std::string own_title_of(const results::Run& run);
 
 } // namespace hapnet::lab::report

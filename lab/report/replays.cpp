@@ -21,8 +21,8 @@ using page::Json;
 
 constexpr double mm_per_m = 1e3;
 
-/// Packs a column as 16 bits a value, low byte first, with the value of one step. A column that
-/// does not change becomes one number.
+/// Packs a column as 16 bits per value, low byte first, with the value of one step. A constant
+/// column becomes one number.
 Json packed(const std::vector<double>& column)
 {
     double most = 0.0;
@@ -46,8 +46,8 @@ Json packed(const std::vector<double>& column)
 Json json_of(const glm::dvec3& mm) { return {mm.x, mm.y, mm.z}; }
 Json json_of(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
 
-/// Describes the parts of a body, in the frame of its mass, in mm. For a rounded part `half` is the
-/// box within it.
+/// Describes the parts of a body, in the frame of its mass, in mm. For a rounded part `half` is
+/// that of the box within it.
 Json parts_of_body(const scene::BodyDescription& body)
 {
     Json parts = Json::array();
@@ -78,7 +78,8 @@ Json bodies_of(const scene::Description& scene)
     return list;
 }
 
-/// The height of the platform, in mm; of the paper's, where a scene has none that is level.
+/// Returns the height of the platform, in mm; where a scene has no level plane, the height of the
+/// paper's.
 double floor_of(const scene::Description& scene)
 {
     for (const scene::PlaneDescription& plane : scene.planes)
@@ -86,7 +87,7 @@ double floor_of(const scene::Description& scene)
     return -20.0;
 }
 
-/// Calls packed() for a column of one number of each value.
+/// Calls packed() for the column of one number of each value.
 template <typename Value, typename Number>
 Json packed_column(const std::vector<Value>& values, const Number& number)
 {

@@ -7,7 +7,7 @@
 
 namespace hapnet::lab::report {
 
-/// The replays as the player takes them: columns of 16 bits a value.
+/// Returns the replays in the form for the player: columns of 16 bits per value.
 [[nodiscard]] page::Json replays_of(const results::Results& results);
 
 } // namespace hapnet::lab::report

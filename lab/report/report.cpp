@@ -28,13 +28,13 @@ using Results = results::Results;
 
 bool never(const Results&) { return false; }
 
-/// Recorded sessions alone, and no experiment.
+/// True if the results are recorded sessions alone, without an experiment.
 bool is_of_sessions(const Results& results)
 {
     return !results.sessions.empty() && results.runs.empty() && !results.demo;
 }
 
-/// True if anything stands against the paper.
+/// True if any result is compared with the paper.
 bool has_verdicts(const Results& results)
 {
     const auto has = [](std::string_view key) {
@@ -53,7 +53,7 @@ bool has_axis(const Results& results)
            !results.table("table1_by_axis").is_empty();
 }
 
-/// "How much delay and jitter is borne", of the impairments that were searched.
+/// Returns a title such as "How much delay and jitter is borne" for the searched impairments.
 template <typename... Impairments>
 std::string limits_title(const Results& results, Impairments... impairments)
 {
@@ -65,7 +65,7 @@ std::string limits_title(const Results& results, Impairments... impairments)
     return fmt::format("How much {} is borne", searched);
 }
 
-/// "Results by delay of the path"
+/// Returns a title such as "Results by delay of the path".
 std::string axis_title(const Results& results)
 {
     for (const char* name : {"limits_by_axis", "table1_by_axis"}) {
@@ -85,7 +85,7 @@ std::string table1_title(const Results& results)
            (has_paper ? ", beside the paper’s Table 1" : "");
 }
 
-/// A section of a page. It is there where its table has rows.
+/// A section of a page. The page has it if its table has rows.
 struct SectionKind {
     std::string_view id;
     std::string_view title{}; // empty: see `title_of`
@@ -135,7 +135,7 @@ constexpr std::array section_kinds{
                     return !r.runs.empty();
                 }}};
 
-/// The file whose rows a section's figures show; empty: a file of the page's own.
+/// Returns the file with the rows of a section's figures; empty: a file of the page's own.
 std::string_view source_of(const SectionKind& kind)
 {
     if (kind.id == "points") return "";
@@ -145,7 +145,7 @@ std::string_view source_of(const SectionKind& kind)
 }
 
 /// Returns the subject of a page. A page about one subject does not silently replace one about
-/// another.
+/// another subject.
 std::string subject_of(const Results& results)
 {
     if (results.demo) return "demo";
@@ -181,7 +181,7 @@ Json json_of(const std::vector<records::TextTable>& tables)
     return list;
 }
 
-/// The limits of the criteria that always judge.
+/// Returns the limits of the criteria that always judge.
 Json json_of(const metrics::Criteria& criteria)
 {
     const auto& [order, usable, good] = criteria;
@@ -225,7 +225,7 @@ Json sessions_of(const Results& results)
     return list;
 }
 
-/// A sentence for each run; a run of which nothing is known has its title.
+/// Returns a sentence for each run. A run about which nothing is known has its title instead.
 Json played_of(const Results& results)
 {
     Json list = Json::array();
@@ -248,7 +248,7 @@ Json runs_of(const Results& results)
     return list;
 }
 
-/// The tables that a page shows, and not only draws.
+/// Returns the tables that a page shows as tables.
 Json tables_of(const Results& results)
 {
     constexpr std::array<std::string_view, 16> are_shown{
@@ -262,7 +262,7 @@ Json tables_of(const Results& results)
     return Json::parse(results::json_text(tables)).at("tables");
 }
 
-/// A page on its way: its data, and its figures' own files.
+/// The data of a page under construction: its contents, and its figures' own files.
 class PageData {
 public:
     explicit PageData(const Results& results) : results_{results}
@@ -298,7 +298,7 @@ public:
     }
 
 private:
-    /// null: it has no data.
+    /// Returns the data of a section; null: it has none.
     Json section_of(const SectionKind& kind)
     {
         if (kind.table.empty() ? !kind.is_there(results_) : results_.table(kind.table).is_empty())
@@ -320,7 +320,7 @@ private:
             {"groups", list}};
     }
 
-    /// A figure whose numbers no result file has gets a file of its own.
+    /// Adds a figure. If no result file has its numbers, it gets a file of its own.
     void add(page::Figure figure, std::vector<std::string> sources, const FigureGroup& group)
     {
         if (figure.sources.empty()) figure.sources = std::move(sources);

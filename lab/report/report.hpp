@@ -10,11 +10,12 @@
 
 namespace hapnet::lab::report {
 
-/// The report of a result folder: report.html, and figures/*.csv where no result file has the
-/// numbers of a figure. Equal results give equal bytes.
+/// Returns the report of a result folder: report.html, and figures/*.csv for figures whose numbers
+/// no result file has. Equal results give equal bytes.
 [[nodiscard]] std::vector<results::File> report_of(const results::Results& results);
 
-/// The subject of a report.html: "experiments", "demo" or "session"; empty when it does not say.
+/// Returns the subject of a report.html: "experiments", "demo" or "session"; empty when the page
+/// does not state it.
 [[nodiscard]] std::string_view page_subject(std::string_view page);
 
 } // namespace hapnet::lab::report

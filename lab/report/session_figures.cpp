@@ -20,7 +20,7 @@ namespace {
 using Values = std::vector<records::TimedValue>;
 
 constexpr std::size_t curve_points_max = 4000; // per curve: finer than pixels, and no peak is lost
-/// The colours of the bodies of a session, in their order; there are eight at most.
+/// The colours of a session's bodies, in their order. There are at most eight.
 constexpr std::array<std::string_view, 8> body_colours{"left",   "right", "sep",        "other",
                                                        "missed", "met",   "calibrated", "muted"};
 
@@ -33,7 +33,8 @@ page::Curve curve_of(std::string_view name, std::string_view colour, const Value
             .points = page::thinned(points, curve_points_max)};
 }
 
-/// A quantity of both sides; where they are equal, B's dashes lie on the line of A.
+/// Returns the curves of a quantity of both sides. Where they are equal, B's dashes lie on A's
+/// line.
 std::vector<page::Curve> of_both(std::string_view of, const Values& a, const Values& b)
 {
     std::vector<page::Curve> both{curve_of(fmt::format("{} A", of), "left", a),
@@ -42,7 +43,8 @@ std::vector<page::Curve> of_both(std::string_view of, const Values& a, const Val
     return both;
 }
 
-/// The first and the last time of what is drawn: all plots of a session span the same.
+/// Returns the first and the last time of the drawn values. All plots of a session have the same
+/// range.
 page::Range span_of(const records::SessionCurves& curves)
 {
     page::Range range;
@@ -66,7 +68,7 @@ std::string apart_caption(const records::Analysis& analysis)
                        shown(1e3 * x->mean, 2), shown(1e3 * x->max, 1));
 }
 
-/// "cube 0.12 mm, tool 3.4 mm": the mean of each.
+/// Returns "cube 0.12 mm, tool 3.4 mm": the mean of each body.
 std::string means_of(const std::vector<records::BodyAgreement>& bodies,
                      std::optional<metrics::Spread> records::BodyAgreement::*apart, double scale,
                      std::string_view unit)
@@ -117,7 +119,7 @@ std::vector<page::Figure> figures_of_bodies(const results::RecordedSession& sess
     add("forces", "Force on each hand", {"force", "N"},
         of_both("on hand", curves.force_a_n, curves.force_b_n),
         "Magnitude of the force that each device was told to apply, after its governor.");
-    // The distances and angles of sessions that |x_A - x_B| alone does not describe.
+    // These figures are for sessions that |x_A - x_B| alone does not describe.
     add("bodies", "Distance of the two copies of each body", {"distance", "mm"},
         curves_of_bodies(curves.bodies, &records::BodyCurves::apart_mm),
         fmt::format("Distance in space at equal times; on average while both hands were on: {}.",
@@ -131,7 +133,8 @@ std::vector<page::Figure> figures_of_bodies(const results::RecordedSession& sess
     return figures;
 }
 
-/// Figures of the lateness of both loops' ticks; none in virtual time, where no tick is late.
+/// Returns figures of the lateness of both loops' ticks. There are none in virtual time, where no
+/// tick is late.
 std::vector<page::Figure> lateness_figures(const records::SessionCurves& curves)
 {
     std::vector<page::Curve> drawn;
@@ -156,8 +159,7 @@ std::vector<page::Figure> lateness_figures(const records::SessionCurves& curves)
     return {std::move(figure)};
 }
 
-/// All figures of a session: over time from the same moment to the same moment, and those of
-/// shares.
+/// Returns all figures of a session: those over time, with the same range, and those of shares.
 std::vector<page::Figure> figures_of(const results::RecordedSession& session,
                                      const std::string& prefix)
 {

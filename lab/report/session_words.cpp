@@ -18,10 +18,10 @@ namespace {
 using results::RecordedPeer;
 using results::RecordedSession;
 
-/// The `boot_id` in records that no machine has made.
+/// The `boot_id` in records of sessions in virtual time.
 constexpr std::string_view virtual_boot = "virtual time";
 
-/// A value of a configuration as text; empty where there is none.
+/// Returns a value of a configuration as a text; empty where there is none.
 std::string said(const RecordedPeer& peer, const char* key)
 {
     const auto found = peer.config.find(key);
@@ -34,7 +34,7 @@ std::string seconds(base::Duration length)
     return fmt::format("{:g} s", std::round(1e3 * base::to_seconds(length)) / 1e3);
 }
 
-/// "a simulated hand", or the device in words; empty where the record does not say.
+/// Returns "a simulated hand", or a description of the device; empty where the record does not say.
 std::string hand_of(const RecordedPeer& peer)
 {
     const std::string device = said(peer, "device");
@@ -52,7 +52,7 @@ std::string players_of(const RecordedSession& session)
     return fmt::format("A (peer {}, {}) and B (peer {}, {})", a.id, hand_a, b.id, hand_b);
 }
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 std::string word(const std::string& text)
 {
     const auto is_plain = [](char c) {
@@ -65,8 +65,8 @@ std::string word(const std::string& text)
     return quoted + "'";
 }
 
-/// Returns the others as the command of a peer names them: a single one by its place alone, several
-/// by their ids, too.
+/// Returns the other peers in the form for a peer's command: one by its address alone, several also
+/// by their ids.
 std::string others_of(const RecordedPeer& peer)
 {
     const auto others = peer.config.value("peers", nlohmann::json::array());
@@ -76,7 +76,7 @@ std::string others_of(const RecordedPeer& peer)
     return words;
 }
 
-/// The command of a peer, as far as its record says it.
+/// Returns the command of a peer, as far as its record holds it.
 std::string command_of(const RecordedPeer& peer, base::Duration length)
 {
     std::string command = fmt::format("hapnet-peer --id {}{}", peer.id, others_of(peer));

@@ -26,20 +26,20 @@ using Measure = std::function<std::optional<double>(const metrics::Scores&)>;
 const Tasks pressed{Task::t1, Task::t2, Task::t3};
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// The way in which a number is judged: nine of ten sessions have to keep it, or their mean, or
-/// each of them.
+/// The rule by which a number is judged: nine of ten sessions must keep its bounds, or their mean,
+/// or each of them.
 enum class JudgedBy : std::uint8_t { quantile, mean, each };
 constexpr auto names_of(base::Tag<JudgedBy>) { return base::names("quantile", "mean", "worst"); }
 constexpr double kept_share = 0.9;
 
-/// The bounds that a number has to keep.
+/// The bounds that a number must keep.
 struct Wanted {
     double least = -unbounded;
     double most = unbounded;
     JudgedBy by = JudgedBy::quantile;
 };
 
-/// A number of a claim, of all seeds.
+/// A number of a claim, over all seeds.
 struct Number {
     std::string name; // empty: it is the claim's only number
     std::vector<double> values{};
@@ -61,12 +61,12 @@ struct HeldValue {
 
     [[nodiscard]] bool is_met() const { return interval.low >= least && interval.high <= most; }
     [[nodiscard]] bool is_missed() const { return interval.high < least || interval.low > most; }
-    /// The distance of the value beyond its bounds; negative within them.
+    /// Returns the distance of the value beyond its bounds; negative within them.
     [[nodiscard]] double shortfall() const { return std::max(least - value, value - most); }
 };
 
-/// One of a mean, or of the worst; of quantiles one for each bound. None where nothing was
-/// measured.
+/// Returns the values to compare with the bounds: one for a mean or for the worst, and for
+/// quantiles one for each bound. Returns none where nothing was measured.
 std::vector<HeldValue> held_values(const Number& number)
 {
     const auto& [least, most, by] = number.wanted;
@@ -90,7 +90,7 @@ std::vector<HeldValue> held_values(const Number& number)
     return judged;
 }
 
-/// Returns true if the number is kept; nullopt: it was not measured, or an interval lies across a
+/// True if the number keeps its bounds; nullopt: it was not measured, or its interval contains a
 /// bound.
 std::optional<bool> is_kept(const Number& number)
 {
@@ -102,7 +102,7 @@ std::optional<bool> is_kept(const Number& number)
     return std::nullopt;
 }
 
-/// One value, or the two ends where both are bounded.
+/// Adds the unit to a text of one value, or of two ends where both are bounded.
 std::string with_unit(std::string text, const Number& number)
 {
     if (!number.unit.empty()) text += fmt::format(" {}", number.unit);
@@ -140,7 +140,7 @@ std::string joined(const std::vector<Number>& numbers, Say say)
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-// The measures that the claims are about.
+// The measures of the claims.
 
 std::optional<double> mean_mm(const metrics::Scores& scores)
 {
@@ -236,7 +236,7 @@ private:
         found.unit = unit;
         return found;
     }
-    /// The share of the sessions that are usable: nine of ten are to be.
+    /// Returns the share of usable sessions, which must be nine of ten.
     [[nodiscard]] Number usable(std::string name, const Cells& cells) const
     {
         const Measure is_usable = [this](const metrics::Scores& scores) {
@@ -282,7 +282,7 @@ private:
         add("bears 30 ms of jitter", {usable("", {"jitter-30ms"})});
         add("bears 97 % loss and bursts of 90",
             {usable("97 %", {"loss-97"}), usable("90 of 100", {"burst-90"})});
-        // The vibration is reported, and judged by the first number alone.
+        // The vibration is only reported; the first number alone is judged.
         add("bears 200 ms and 30 ms of jitter and 97 % loss at once",
             {usable("", {"all"}),
              of("vibration", {"all"}, pressed, vibration_mm,
@@ -381,8 +381,8 @@ private:
 
 using Stiffness = decltype(metrics::Metrics::stiffness_n_per_m);
 
-/// Returns the stiffness that each side feels in one shared world, the median of the seeds. In one
-/// session a hand that holds against the press is kept by the friction of its device, or slips as
+/// Returns the stiffness that each side feels in one shared world, the median of the seeds. In a
+/// single session a hand that resists the press is held by the friction of its device, or slips as
 /// it wavers.
 Stiffness usual_stiffness(std::span<const experiment::JobResult> of_seeds,
                           Stiffness metrics::Metrics::*part)

@@ -14,7 +14,7 @@
 
 namespace hapnet::lab::results {
 
-/// A session of a claim's conditions, and its outcome.
+/// A session under a claim's conditions, and its outcome.
 struct ClaimSession {
     const experiment::ClaimCell* cell = nullptr;
     std::string algorithm;
@@ -31,20 +31,20 @@ struct ClaimSessions {
 [[nodiscard]] ClaimSessions claim_sessions_of(const experiment::Experiment& experiment,
                                               std::span<const experiment::JobResult> results);
 
-/// The claims of the first of the algorithms, in two tables of a row for each, and one of a row for
-/// each of their numbers. Of `claims`: `value`
-/// has the claim's numbers of the worst seed that judges, or of their mean where the claim says so;
-/// `accept` what they have to keep. `verdict` is met when all are, for the seeds that judge, and
-/// undecided when one was not measured. Of `claims_quantiles`: `quantile` is what 9 of 10 of all
-/// seeds keep, or the mean. Of `claims_numbers`: `value` is the mean, `low` and `high` its 95 %
-/// interval; or, as `judged_by` says, the worst of the sessions, their least and their most. `kept`
-/// is empty where no session has the number.
+/// Returns the claims of the first of the algorithms: two tables with a row for each claim, and one
+/// with a row for each of their numbers. In `claims`, `value` has the claim's numbers of the worst
+/// judging seed, or of the seeds' mean where the claim says so; `accept` has the limits that they
+/// must keep. `verdict` is met when all numbers of the judging seeds keep their limits, and
+/// undecided when one was not measured. In `claims_quantiles`, `quantile` is the value that 9 of 10
+/// of all seeds keep, or the mean. In `claims_numbers`, `value` is the mean, and `low` and `high`
+/// are its 95 % interval; or, as `judged_by` says, they are the worst, the least and the greatest
+/// of the sessions. `kept` is empty where no session has the number.
 [[nodiscard]] std::vector<Table> claim_tables(const experiment::Experiment& experiment,
                                               const metrics::Criteria& criteria,
                                               const ClaimSessions& sessions);
 
-/// The table sessions. Vibrations and forces are what the network adds; `scored_share` is of the
-/// time that both would run on a perfect network.
+/// Returns the table sessions. Vibrations and forces are those that the network adds.
+/// `scored_share` is a share of the time in which both sides would run on a perfect network.
 [[nodiscard]] Table claim_sessions_table(const metrics::Criteria& criteria,
                                          const ClaimSessions& sessions);
 

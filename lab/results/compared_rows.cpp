@@ -16,7 +16,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// The columns that measure a session. All other columns say which session it is.
+/// The columns that measure a session. All other columns identify it.
 constexpr std::array<std::string_view, 15> measures{"mean_mm",
                                                     "std_mm",
                                                     "max_mm",
@@ -73,7 +73,7 @@ std::size_t place_of(const std::vector<std::string>& columns, std::string_view c
     return static_cast<std::size_t>(std::ranges::find(columns, column) - columns.begin());
 }
 
-/// Names sessions by the conditions that differ among them, except algorithm, task and seed.
+/// Names sessions by the conditions in which they differ, except algorithm, task and seed.
 class ConditionNames {
 public:
     explicit ConditionNames(const Sessions& sessions) : columns_{sessions.conditions}
@@ -85,7 +85,7 @@ public:
             const bool is_named = column == "algorithm" || column == "task" || column == "seed";
             if (!is_named && values.size() > 1) telling_.push_back(i);
         }
-        // The profile tells in one word what these tell in several.
+        // One word of the profile replaces several of these columns.
         const auto is_number = [&](std::size_t i) {
             return columns_[i].ends_with("_ms") || columns_[i].ends_with("_percent") ||
                    columns_[i].ends_with("of_100");
@@ -121,7 +121,7 @@ struct SessionGroup {
     CommonSessions pairs{};
 };
 
-/// Nothing where neither table has numbers.
+/// Adds the rows of a group, but none for a measure of which neither table has numbers.
 void add_rows(const SessionGroup& group, Table& table)
 {
     for (const std::string_view measure : measures) {

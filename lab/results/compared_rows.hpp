@@ -8,7 +8,7 @@
 
 namespace hapnet::lab::results {
 
-/// The cell under `conditions` in a row over all of them.
+/// The cell under `conditions` in a row about all conditions.
 inline constexpr const char* all_conditions = "all";
 
 /// The sessions of a folder.
@@ -17,11 +17,12 @@ struct SessionsTable {
     std::string path;   // path of the table's file, for error messages
 };
 
-/// The table compared: measures of the sessions that two folders have in common. It pairs the
-/// sessions of two tables that are equal in every column except the measures. `conditions` is what
-/// else differs among the sessions, "delay_ms=40"; conditions together have a row all_conditions
-/// where there are several. `difference` is the median of B - A, with its 95 % interval. The error:
-/// a table has no sessions, or they have no session in common.
+/// Returns the table compared: measures of the sessions that two folders have in common. Sessions
+/// of the two tables are pairs if they are equal in every column except the measures. `conditions`
+/// holds the other columns in which the sessions differ, such as "delay_ms=40". Where there are
+/// several conditions, one row, all_conditions, covers them together. `difference` is the median of
+/// B - A, with its 95 % interval. Fails when a table has no sessions, or when the two have no
+/// session in common.
 [[nodiscard]] base::Result<Table> compare_sessions(const SessionsTable& a, const SessionsTable& b);
 
 } // namespace hapnet::lab::results

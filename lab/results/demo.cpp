@@ -33,7 +33,7 @@ constexpr std::size_t cell_width = 9; // characters per cell in a terminal
 
 constexpr std::array<std::string_view, 2> ways{"up", "down"};
 
-/// The number at a JSON pointer, if there is one.
+/// Returns the number at a JSON pointer, if there is one.
 std::optional<double> number(const Json& json, const std::string& where)
 {
     const Json::json_pointer pointer{where};
@@ -53,7 +53,7 @@ bool mean_is_met(const DemoRun& run)
                    mean_tolerance * mean_mm);
 }
 
-/// received + duplicated = delivered + the sum of dropped + in_flight.
+/// True if received + duplicated = delivered + the sum of dropped + in_flight.
 bool accounts_for_all(const Json& direction)
 {
     const auto count = [&](const char* key) { return number(direction, key); };
@@ -93,7 +93,7 @@ records::TextTable against_paper(const DemoRun& run)
         cell_width};
 }
 
-/// A number of a task's analysis, and where it has one, its accepted value.
+/// A number of a task's analysis, with its accepted value if there is one.
 struct Quantity {
     std::string name;
     std::string pointer;

@@ -18,18 +18,19 @@ struct DemoRun {
     SessionFiles t3;
 };
 
-/// The measurements of the demo: beside the paper's Table 1, and of both tasks.
+/// Returns the measurements of the demo: those beside the paper's Table 1, and those of both tasks.
 [[nodiscard]] std::vector<records::TextTable> demo_tables(const DemoRun& run);
 
-/// The tables as lines of text, and whether the run counts.
+/// Returns the tables as lines of text, and whether the run counts.
 [[nodiscard]] std::string demo_table(const DemoRun& run);
 
-/// True if no row of the tables is missed: P1's mean discrepancy is within 15 % of the paper's
-/// 13.79 mm, the median delay within 1 ms of 160 ms and the rate of the messages within 5/s of
-/// 1000/s in both tasks and directions, and each emulator has accounted for every datagram.
+/// True if no row of the tables misses its target: P1's mean discrepancy is within 15 % of the
+/// paper's 13.79 mm, the median delay is within 1 ms of 160 ms and the rate of the messages is
+/// within 5/s of 1000/s in both tasks and directions, and each emulator has accounted for every
+/// datagram.
 [[nodiscard]] bool demo_is_met(const DemoRun& run);
 
-/// True if the programs kept their own time in both tasks.
+/// True if the programs kept time in both tasks.
 [[nodiscard]] bool demo_is_valid(const DemoRun& run);
 
 /// Another task of the demo, of two hands or more: T7 or T8.
@@ -38,17 +39,17 @@ struct CircleDemo {
     SessionFiles files;
 };
 
-/// True if the programs kept their own time.
+/// True if the programs kept time.
 [[nodiscard]] bool circle_demo_is_valid(const CircleDemo& demo);
 
 /// A sentence that says whether the run is valid, with the reasons if it is not.
 [[nodiscard]] std::string circle_demo_verdict(const CircleDemo& demo);
 
-/// The manifest of the folder in which that of the task is.
+/// Returns the manifest of the folder that contains the task's folder.
 [[nodiscard]] nlohmann::ordered_json circle_demo_manifest(const CircleDemo& demo,
                                                           const Circumstances& circumstances);
 
-/// The manifest of the demo's folder.
+/// Returns the manifest of the demo's folder.
 [[nodiscard]] nlohmann::ordered_json demo_manifest(const DemoRun& run,
                                                    const Circumstances& circumstances);
 

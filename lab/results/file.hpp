@@ -6,8 +6,8 @@
 
 namespace hapnet::lab::results {
 
-/// A file of a result folder: as it was read, with a path that a person finds it by, or to be
-/// written, with its path in the folder.
+/// A file of a result folder. For a file that was read, the path is one by which a person finds it.
+/// For a file to be written, it is the path in the folder.
 struct File {
     std::string path;
     std::string text;

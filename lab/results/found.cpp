@@ -26,7 +26,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// The findings of the sessions of one algorithm and task, in the order of the trials and the
+/// The findings about the sessions of one algorithm and task, in the order of the trials and the
 /// seeds.
 struct Group {
     std::string_view algorithm;
@@ -89,7 +89,7 @@ std::optional<double> in_thousands(std::optional<double> value)
     return value ? std::optional{1e-3 * *value} : std::nullopt;
 }
 
-/// `is_papers`: it was played as the paper's table is.
+/// Adds a row of Table 1. `is_papers` is true if it was played like the paper's table.
 void add_table1_row(const Group& group, const Summary& summary,
                     const std::optional<metrics::Spread>& base_mm, bool is_papers, Table& table)
 {
@@ -115,7 +115,7 @@ void add_table1_row(const Group& group, const Summary& summary,
               end(&Table1Bands::max_mm, &Band::high));
 }
 
-/// True if a row was played as in the paper's table: by the built-in algorithm of that name, under
+/// True if a row was played like the paper's table: by the built-in algorithm of that name, under
 /// the built-in conditions.
 bool is_papers_row(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
                    std::string_view algorithm)
@@ -126,7 +126,7 @@ bool is_papers_row(const experiment::Experiment& experiment, const metrics::Crit
            plays_as_shipped(experiment, criteria, "table1");
 }
 
-/// The worst of the seeds, mean and std as their mean.
+/// Adds a row with the values of the worst seed, but mean and std as their mean over the seeds.
 void add_task_row(const Group& group, const Summary& summary, const metrics::Criteria& criteria,
                   const PartyCells& party, Table& table)
 {
@@ -290,7 +290,7 @@ struct ResultsOf {
             const auto& session = std::get<experiment::SessionResult>(result);
             scores.push_back(scores_of(session.metrics, session.reference));
         }
-        // The first half of the sessions is of the first of two conditions.
+        // The first half of the sessions belongs to the first of two conditions.
         const auto half = std::span{scores}.first(scores.size() / 2);
         const auto rest = std::span{scores}.subspan(half.size());
         return calibrated({half, rest}, criteria).map([this](const metrics::Criteria& found) {

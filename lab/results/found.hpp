@@ -17,8 +17,8 @@ struct Found {
     std::vector<File> files{}; // files besides the tables: criteria.toml
 };
 
-/// Equal results give equal tables. `results` are those of make_jobs(experiment), in that order.
-/// The error: sessions that nothing can be calibrated on.
+/// Computes the findings of an experiment. Equal results give equal tables. `results` are those of
+/// make_jobs(experiment), in that order. Fails when no session can serve for a calibration.
 [[nodiscard]] base::Result<Found> find_results(const experiment::Experiment& experiment,
                                                const metrics::Criteria& criteria,
                                                std::span<const experiment::JobResult> results);

@@ -32,7 +32,7 @@ const TaskLimit* limit_of(const std::vector<TaskLimit>& limits, const TaskLimit&
     return nullptr;
 }
 
-/// The paper's statement on a limit: it is about two people and no task in particular.
+/// The paper's statement on a limit. It refers to two people and to no task in particular.
 struct PaperCells {
     std::optional<double> limit{};
     LimitStatus status{};
@@ -65,7 +65,7 @@ Table limits_table(const experiment::Experiment& experiment, const metrics::Crit
     const bool is_shipped = plays_as_shipped(experiment, criteria, "fig6a");
     for (const TaskLimit& one : limits) {
         const metrics::Threshold& threshold = one.threshold;
-        // The paper says what was accepted: that is the tier usable.
+        // The paper states what was accepted: that corresponds to the tier usable.
         const bool is_papers =
             is_shipped && is_built_in(*one.algorithm) && one.tier == metrics::Tier::usable;
         const PaperCells paper = is_papers ? paper_cells(limits, one) : PaperCells{};

@@ -24,10 +24,10 @@ struct Circumstances {
     std::optional<double> processor_time_s{};
 };
 
-/// ISO 8601, UTC, whole seconds.
+/// Returns a time in ISO 8601, UTC, whole seconds.
 [[nodiscard]] std::string utc_text(double since_1970_s);
 
-/// The beginning of every manifest.json: command, version, commit, compiler, host, time.
+/// Returns the beginning of every manifest.json: command, version, commit, compiler, host, time.
 [[nodiscard]] nlohmann::ordered_json manifest_head(const Circumstances& circumstances);
 
 /// The outcome of the run of an experiment.
@@ -37,11 +37,11 @@ struct RunOutcome {
     std::size_t reused = 0;
     std::vector<std::string> invalid_because{};
     std::string digest{}; // digest of all results; empty: there are none
-    /// Recorded people whose hands played, with some of the values of an axis at least.
+    /// The recorded people whose hands played, if any did at any value of an axis.
     std::shared_ptr<const hands::Population> people{};
 };
 
-/// manifest.json of an experiment's folder of results.
+/// Returns the manifest.json of an experiment's folder of results.
 [[nodiscard]] nlohmann::ordered_json make_manifest(const experiment::Experiment& experiment,
                                                    const Circumstances& circumstances,
                                                    const RunOutcome& outcome);

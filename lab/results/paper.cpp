@@ -10,7 +10,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// Table 1 and Fig. 6 of the paper; its TiDeC stands beside our sep. The order of the limits is
+/// Table 1 and Fig. 6 of the paper. Its TiDeC is compared with our sep. The order of the limits is
 /// that of `impairments`.
 struct PaperAlgorithm {
     std::string_view name;
@@ -57,9 +57,9 @@ struct LimitRule {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
-// base: delay within 5 %, random loss within 1, burst loss within 5 of 100, which the paper's own
-// limits are apart. Dead reckoning: the bands of our first estimates; of bursts, of which those
-// knew an order alone, within a fifth of the paper's 50.
+// base: delay within 5 %, random loss within 1, burst loss within 5 of 100, which is the distance
+// of the paper's own limits. Dead reckoning: the bands of our first estimates. Those contained only
+// an order of the bursts, so bursts must be within a fifth of the paper's 50.
 constexpr std::array limit_rules{
     LimitRule{"base", experiment::Impairment::delay, "152 to 168", {152.0, 168.0}},
     LimitRule{"base", experiment::Impairment::random_loss, "92 to 94", {92.0, 94.0}},

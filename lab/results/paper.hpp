@@ -13,8 +13,8 @@
 
 namespace hapnet::lab::results {
 
-// The paper's results, and the ranges that count as agreeing with them. Algorithms go by their
-// names.
+// The paper's results, and the ranges that count as agreement with them. Algorithms are identified
+// by their names.
 
 /// Table 1: |x_L - x_R| at 160 ms, in mm.
 struct PaperRow {
@@ -26,23 +26,23 @@ struct PaperRow {
 /// Returns nullopt when the paper has no such algorithm.
 [[nodiscard]] std::optional<PaperRow> paper_table1(std::string_view algorithm);
 
-/// The number in the paper's Fig. 6, in the impairment's unit. nullopt: it states none. For jitter
-/// it states only that of dead reckoning; at the 15 ms of its Fig. 7 base and TiDeC were still
-/// usable.
+/// Returns the number in the paper's Fig. 6, in the impairment's unit; nullopt: the paper states
+/// none. For jitter it states only that of dead reckoning; at the 15 ms of its Fig. 7 base and
+/// TiDeC were still usable.
 [[nodiscard]] std::optional<double> paper_limit(std::string_view algorithm,
                                                 experiment::Impairment impairment);
 
-/// The origin of a limit, of one task or of the worst of them (worst_task). The thresholds were
-/// calibrated on base's delay, which shows in T2, and its random loss, which shows in T1; readings
-/// of the paper were chosen with a look at dead reckoning's jitter and random loss and at base's
-/// bursts, in T1; in T1, where one hand pushes at a time, sep is base by construction, and so are
+/// Returns the origin of a limit, of one task or of the worst task (worst_task). The thresholds
+/// were calibrated on base's delay, which shows in T2, and on its random loss, which shows in T1.
+/// Readings of the paper were chosen with a look at dead reckoning's jitter and random loss and at
+/// base's bursts, in T1. In T1 one hand pushes at a time, so sep is base by construction; so are
 /// its limits, except that of delay. Provenance::none: the paper has no such algorithm.
 [[nodiscard]] Provenance limit_provenance(std::string_view algorithm,
                                           experiment::Impairment impairment, std::string_view task);
 
 /// The provenance of a row of Table 1: of its mean and standard deviation, and of its maximum. P1's
-/// path was fitted to base's row; its frequencies were chosen with a look at the ratio of dead
-/// reckoning's mean to base's, too.
+/// path was fitted to base's row. Its frequencies were also chosen with a look at the ratio of dead
+/// reckoning's mean to base's.
 struct Table1Provenance {
     Provenance typical{};
     Provenance max{};
@@ -71,19 +71,20 @@ struct Table1Bands {
 [[nodiscard]] std::optional<Table1Bands>
 table1_bands(std::string_view algorithm, const std::optional<metrics::Spread>& base_mm);
 
-/// Claim::none: the paper has no such algorithm. `mm` was measured with the algorithm, `base_mm`
-/// with base. The paper's row of base was used for calibration.
+/// Returns the verdict on a row of Table 1; Claim::none: the paper has no such algorithm. `mm` was
+/// measured with the algorithm, `base_mm` with base. The paper's row of base was used for
+/// calibration.
 [[nodiscard]] Claim table1_verdict(std::string_view algorithm, const metrics::Spread& mm,
                                    const std::optional<metrics::Spread>& base_mm);
 
-/// The range in which a limit agrees, for people to read: "130 to 155, less than base"; empty where
+/// Returns the range in which a limit agrees, for people: "130 to 155, less than base"; empty where
 /// the paper makes no claim.
 [[nodiscard]] std::string_view limit_band(std::string_view algorithm, std::string_view impairment);
 
-/// Compares the limit of the worst task with the paper's. `base` is base's limit. 95 % intervals
-/// decide. Met: that of p50 lies within the band, and that of the paired difference to base where
-/// it should. Missed: one of them lies outside. Otherwise undecided. LimitStatus::none: the paper
-/// states no number, or base is needed and was not played.
+/// Compares the limit of the worst task with the paper's. `base` is base's limit. The 95 %
+/// intervals decide. Met: the interval of p50 is within the band, and that of the paired difference
+/// from base is where it should be. Missed: one of them is outside. Otherwise undecided.
+/// LimitStatus::none: the paper states no number, or base is needed and was not played.
 [[nodiscard]] LimitStatus limit_status(std::string_view algorithm,
                                        experiment::Impairment impairment,
                                        const metrics::Threshold& found,

@@ -12,12 +12,12 @@
 
 namespace hapnet::lab::results {
 
-/// The number of players and their scene: the last columns of a table in which not all sessions
-/// have two players in the task's own scene.
+/// The number of players and their scene. They are the last columns of a table unless all its
+/// sessions have two players in the task's own scene.
 struct PartyCells {
     std::optional<std::uint32_t> peers{};
     std::optional<std::string> scene{};
-    /// Numbers of recorded people and of their trials, where such hands played.
+    /// The numbers of recorded people and of their trials, where such hands played.
     std::optional<std::size_t> subjects{};
     std::optional<std::size_t> trials{};
 };
@@ -37,7 +37,7 @@ struct PartyCells {
 
 inline constexpr std::string_view party_columns = "peers?,scene?";
 
-/// The algorithm of a row as a page names it: "base, 3 peers, carry".
+/// Returns the algorithm of a row as a page names it: "base, 3 peers, carry".
 [[nodiscard]] inline std::string algorithm_and_party(const TableRow& row)
 {
     std::string name = row.text("algorithm");

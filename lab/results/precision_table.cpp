@@ -61,7 +61,7 @@ std::uint64_t ticks_of(const experiment::Experiment& experiment, std::size_t ses
     return each * experiment.peers.front() * sessions;
 }
 
-/// The values of all seeds; empty when one has none.
+/// Returns the values of all seeds; empty when a seed has none.
 std::vector<double> values_of(std::span<const SessionRow> sessions,
                               std::optional<double> SessionRow::*value)
 {
@@ -155,7 +155,7 @@ std::vector<std::uint32_t> numbers_of_seeds(std::uint32_t all)
     return numbers;
 }
 
-/// A figure at a value of the axis beside the reference's.
+/// A figure at a value of the axis, compared with the reference's.
 struct ComparedFigure {
     std::string value;
     const Figure* figure = nullptr;
@@ -173,7 +173,7 @@ ComparedFigure compared(const std::string& value, const Figure& figure, const Fi
     return one;
 }
 
-/// "0.5ms" in its parts; nullopt: no number.
+/// The parts of a text such as "0.5ms"; nullopt: it is not a number.
 struct Measured {
     double number = 0.0;
     std::string_view unit;
@@ -187,8 +187,8 @@ std::optional<Measured> measured(std::string_view text)
     return value;
 }
 
-/// The order in which a figure converges, by the differences that chance does not explain; nullopt,
-/// too, when they change their sign.
+/// Returns the order in which a figure converges, from the differences that chance does not
+/// explain; nullopt also when they change their sign.
 std::optional<double> order_of_figure(const std::string& reference,
                                       const std::vector<ComparedFigure>& by_value)
 {

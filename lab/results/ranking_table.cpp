@@ -17,7 +17,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// The algorithms in one task, with one value of the axis.
+/// The order of the algorithms in one task, with one value of the axis.
 struct Order {
     std::vector<std::string> algorithms;
     std::vector<std::vector<double>> values; // values of each algorithm, by seed or subject
@@ -48,8 +48,8 @@ Order order_in(const std::vector<SessionRow>& sessions, const experiment::Experi
 }
 
 /// Returns Kendall's tau-b of two lists of means of the same algorithms (Kendall, Biometrika 33,
-/// 1945, 239-251): pairs that are equal in a list are left out of what that list tells apart.
-/// nullopt: a list tells no pair apart.
+/// 1945, 239-251). A list does not order pairs that are equal in it. nullopt: a list orders no
+/// pair.
 std::optional<double> tau_of(const std::vector<double>& a, const std::vector<double>& b)
 {
     if (a.size() != b.size()) return std::nullopt;
@@ -67,8 +67,8 @@ std::optional<double> tau_of(const std::vector<double>& a, const std::vector<dou
     return sum / std::sqrt(told_by_a * told_by_b);
 }
 
-/// Returns the interval of tau by resampling seeds or subjects; nullopt: too few, or not as many
-/// for each algorithm.
+/// Returns the interval of tau by resampling seeds or subjects. nullopt: there are too few, or not
+/// equally many for each algorithm.
 std::optional<metrics::Interval> interval_of_tau(const Order& order, const Order& reference)
 {
     const std::size_t count = order.values.front().size();

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double agreement_percent = 5.0; // largest difference in mean or std that agrees
 
-/// The values that a program wrote down. What is missing is remembered.
+/// The values that a program wrote down. Remembers the missing ones.
 class Written {
 public:
     Written(const Json& json, std::string_view program) : json_{json}, program_{program} {}
@@ -49,7 +49,7 @@ private:
     std::optional<std::string> missing_;
 };
 
-/// Takes results; the first error stays.
+/// Unpacks results and keeps the first error.
 class Parts {
 public:
     template <typename Value>
@@ -65,7 +65,7 @@ private:
     std::optional<std::string> error_;
 };
 
-/// A spread as `analyse` writes it.
+/// Reads a spread in the form that `analyse` writes.
 std::optional<metrics::Spread> spread_in(const Json& json)
 {
     Written written{json, "the analysis"};
@@ -92,7 +92,8 @@ std::vector<std::string> objections_to(const RealTimeSession& session)
     return objections;
 }
 
-/// Returns the algorithm and the simulated person with which a peer played, from its report.
+/// Returns the algorithm and the simulated person with which a peer played, according to its
+/// report.
 base::Result<virtual_time::PlayerSetting> player_of(const Json& report, Parts& parts)
 {
     Written peer{report, "hapnet-peer"};
@@ -157,7 +158,7 @@ base::Result<virtual_time::Setting> twin_of(const RealTimeSession& session,
     virtual_time::Setting setting;
     const Json others = session.files.peer.value("others", Json::array());
     setting.players.resize(std::max<std::size_t>(others.size(), 1) + 1);
-    setting.energy_limit = true; // as the daemons have it
+    setting.energy_limit = true; // as in the daemons
     setting.length = base::from_seconds(peer.at<double>("/duration_s"));
     setting.seed = base::Seed{emulator.at<std::uint64_t>("/seed")};
     setting.players[0].seed = base::Seed{peer.at<std::uint64_t>("/session/seed")};

@@ -18,17 +18,17 @@ namespace hapnet::lab::results {
 
 // The motion and the forces of the sides over time.
 
-/// Samples of a trace of two, `rows_per_s` a second or all when there are fewer: the table
-/// replay/ALGORITHM-TASK. It has of each side, A as `l` and B as `r`, the places of the first
-/// shared body and of the hand in mm and the force on the hand along x in N; where a body turns or
-/// several are shared, also how that body is turned, and the pose of each further one (`l2x`,
-/// `l2qw`).
+/// Returns the table replay/ALGORITHM-TASK: samples of a trace of two sides, `rows_per_s` a second,
+/// or all samples when there are fewer. For each side, A as `l` and B as `r`, it has the positions
+/// of the first shared body and of the hand in mm, and the force on the hand along x in N. Where a
+/// body turns or several are shared, it also has the orientation of that body and the pose of each
+/// further one (`l2x`, `l2qw`).
 [[nodiscard]] Table replay_table(const virtual_time::Trace& trace, std::uint32_t rows_per_s);
-/// The rows as a session keeps them: CSV without a header.
+/// Returns the rows in the form in which a session keeps them: CSV without a header.
 [[nodiscard]] std::string kept_lines(const Table& replay);
 [[nodiscard]] Table from_kept_lines(std::string name, std::string_view lines);
 
-/// One of those who played, with its copy of what is shared, in equal steps of time.
+/// One of the players, with its copy of the shared bodies, in equal steps of time.
 struct ReplaySide {
     std::string name; // such as "A" or "peer 3"
     bool is_left = true;
@@ -51,7 +51,7 @@ struct Replay {
     [[nodiscard]] std::size_t steps() const { return sides.front().hand_mm.size(); }
 };
 
-/// The number of the first movable body.
+/// Returns the number of the first movable body.
 [[nodiscard]] std::size_t first_movable(const scene::Description& scene);
 
 /// Returns the sides of a trace with every `every`-th tick; `names` are those of the sides.
@@ -59,14 +59,15 @@ struct Replay {
                                                    std::span<const std::string> names,
                                                    std::size_t every);
 
-/// Reads a replay from the table replay/ALGORITHM-TASK, in the paper's scene. The error: the table
+/// Reads a replay from the table replay/ALGORITHM-TASK, in the paper's scene. Fails when the table
 /// has fewer than two rows.
 [[nodiscard]] base::Result<Replay> replay_of(const Table& table);
 
-/// The table replay_scenes, empty: a row for each replay in another scene than the paper's, with
-/// the scene as TOML in JSON alone.
+/// Returns the table replay_scenes without rows. It gets a row for each replay in another scene
+/// than the paper's. The scene is stored as TOML, only in JSON.
 [[nodiscard]] Table replay_scenes();
-/// Puts the replay into a scene of that table's text. False: it is no scene with those bodies.
+/// Puts the replay into the scene of a text from that table. Returns false if the text is not a
+/// scene with those bodies.
 [[nodiscard]] bool set_scene(Replay& replay, const std::string& toml);
 
 } // namespace hapnet::lab::results

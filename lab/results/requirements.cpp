@@ -15,11 +15,11 @@ namespace {
 
 using experiment::Impairment;
 
-/// Y.1541 bounds the 1 - 10^-3 quantile of the delay less its least. A jitter J draws the delay
-/// evenly from 0 to 2 J.
+/// Y.1541 limits the 1 - 10^-3 quantile of the delay less its minimum. A jitter J draws the delay
+/// uniformly from 0 to 2 J.
 constexpr double variation_of_jitter = 2.0 * (1.0 - 1e-3);
 
-/// A level that is borne, and how it was found.
+/// A tolerated level, and how it was found.
 struct Borne {
     std::optional<double> level{};
     Bound bound{};

@@ -17,8 +17,8 @@
 
 namespace hapnet::lab::results {
 
-// Requirements on a network: the impairments that each algorithm bears, in each task and for each
-// tier, beside the classes of networks of ITU-T Y.1541.
+// Requirements on a network: the impairments at which each algorithm is still usable, in each task
+// and for each tier, beside the classes of networks of ITU-T Y.1541.
 
 /// The promises of a class of networks by ITU-T Recommendation Y.1541 (12/2011), Network
 /// performance objectives for IP-based services, table 1.
@@ -47,8 +47,8 @@ inline constexpr std::array network_classes{
     NetworkClass{2, 100.0, {}, 0.1}, NetworkClass{3, 400.0, {}, 0.1},
     NetworkClass{4, 1000.0, {}, 0.1}};
 
-/// The levels that half of the sessions of an algorithm bear in a task, each factor on its own
-/// while the others are at rest.
+/// The levels that half of the sessions of an algorithm tolerate in a task. Each factor is varied
+/// alone while the others have no impairment.
 struct Requirement {
     std::string algorithm{};
     std::string task{};
@@ -115,19 +115,19 @@ constexpr auto fields_of(base::Tag<Requirement> /*struct*/)
                     "Name of the scene, where the experiment names one."));
 }
 
-/// Returns true if all that a network of the class may do, one factor at a time, is borne. A class
-/// that leaves the delay variation open suffices only where no jitter that was tried fails.
+/// True if the algorithm tolerates all impairments that the class allows, one factor at a time. A
+/// class that does not limit the delay variation suffices only where no tried jitter fails.
 [[nodiscard]] bool suffices(const NetworkClass& network, const Requirement& requirement);
 
-/// Returns true if an experiment searches all that a requirement has.
+/// True if an experiment searches all limits of a requirement.
 [[nodiscard]] bool has_requirements(const experiment::Limits& limits);
 
-/// A row for each algorithm, party, tier and task, and for the worst of the tasks: from the limits
-/// of an experiment that has_requirements().
+/// Returns a row for each algorithm, party, tier and task, and for the worst of the tasks.
+/// has_requirements() must be true for the experiment.
 [[nodiscard]] std::vector<Requirement> make_requirements(const experiment::Experiment& experiment,
                                                          std::span<const TaskLimit> limits);
 
-/// The tables requirements and network_classes.
+/// These functions return the tables requirements and network_classes.
 [[nodiscard]] Table requirements_table(const std::vector<Requirement>& requirements);
 [[nodiscard]] Table network_classes_table();
 

@@ -32,8 +32,8 @@ std::string folder_of(std::string_view path)
 
 Outcome add_run(const File& file, Results& results)
 {
-    // Parts that nest deeper than in any file of this program are left out: they could exhaust the
-    // stack.
+    // Parts that nest deeper than in any file of this program are left out, as they could exhaust
+    // the stack.
     constexpr int depth_max = 16;
     auto json = Json::parse(
         file.text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },
@@ -56,7 +56,7 @@ Outcome add_run(const File& file, Results& results)
 /// The rules for the tables of one name.
 struct TableRule {
     std::string_view name;
-    /// Columns in which no two rows may agree together; empty: any rows may.
+    /// Columns whose texts together must differ in all rows; empty: any rows may be equal.
     std::vector<std::string_view> keys{};
     bool is_ranked = false;   // true: sorted by algorithm, base first
     bool has_parties = false; // true: a page compares parties as it compares algorithms
@@ -78,7 +78,7 @@ const std::vector<TableRule>& table_rules()
     return rules;
 }
 
-/// True for the sessions of Table 1, which plays P1 and everything else on one network. Other
+/// True for the sessions of Table 1, which plays P1 and all other tasks on one network. Other
 /// sessions are not shown one by one.
 bool are_of_table1(const Table& sessions)
 {
@@ -89,7 +89,7 @@ bool are_of_table1(const Table& sessions)
            });
 }
 
-/// Gives sessions of claims a name of their own. False: the table is not shown.
+/// Renames a table of claims' sessions. Returns false if the table is not shown.
 bool is_shown(Table& table)
 {
     if (table.name != "sessions") return true;
@@ -130,7 +130,7 @@ Outcome add_tables(const File& file, Results& results)
     return {};
 }
 
-/// Says which rows give one thing twice.
+/// Fails if two rows describe the same thing. The error names the rows.
 Outcome require_once(std::string_view file, std::vector<std::string> names)
 {
     std::ranges::sort(names);
@@ -140,7 +140,8 @@ Outcome require_once(std::string_view file, std::vector<std::string> names)
                                   file, *twice));
 }
 
-/// Base first, then the others as the paper names them, then what it does not know.
+/// Returns the rank of an algorithm: base first, then the others by their names in the paper, then
+/// algorithms that are not in the paper.
 std::size_t rank(std::string_view algorithm)
 {
     constexpr std::array<std::string_view, 3> known{"base", "sep", "dead-reckoning"};
@@ -193,7 +194,7 @@ std::string text_in(const nlohmann::json& config, const char* key)
     return found != config.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// The lower id is A.
+/// Sorts the records by the peers' ids. The lower id is A.
 std::vector<RecordFile> by_peer(std::span<const RecordFile> files)
 {
     std::vector<RecordFile> sorted{files.begin(), files.end()};

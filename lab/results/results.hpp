@@ -48,48 +48,50 @@ struct RecordedSession {
     records::SessionCurves curves;
 };
 
-/// A table as CSV.
+/// A table that is stored as CSV.
 struct TableFile {
     std::string table; // name of the table among the results
     std::string path;  // path from the folder of the page
 };
 
-/// All that a result folder holds, its subfolders' results joined.
+/// The contents of a result folder and its subfolders, joined.
 struct Results {
     std::vector<Run> runs;
-    /// The table `sessions` has those of Table 1, `claim_sessions` those of claims.
+    /// `sessions` is the table of Table 1's sessions, `claim_sessions` that of the claims'
+    /// sessions.
     std::vector<Table> tables;
     std::vector<Replay> replays;
     std::vector<RecordedSession> sessions;
     std::optional<DemoRun> demo;
     std::vector<TableFile> files;
 
-    /// An empty one where there is none of that name.
+    /// Returns the table of that name, or an empty one where there is none.
     [[nodiscard]] const Table& table(std::string_view name) const;
     [[nodiscard]] Rows rows(std::string_view name) const { return rows_of(table(name)); }
-    /// The CSV files of a table, as paths from the page.
+    /// Returns the CSV files of a table, as paths from the page.
     [[nodiscard]] std::vector<std::string> files_of(std::string_view name) const;
-    /// The criteria by which all runs judged; nullopt when the runs do not say, or differ.
+    /// Returns the criteria by which all runs judged; nullopt when the runs do not state them, or
+    /// differ.
     [[nodiscard]] std::optional<metrics::Criteria> criteria() const;
 };
 
-/// A record, and where it is.
+/// A record and its path.
 struct RecordFile {
     const record::Record* record = nullptr;
     std::string path{}; // path from the page; empty: unknown
 };
 
-/// Adds the session that two or more records share: every two of them, and one replay of all sides
-/// as the player shows them. In every pair the one with the lower id is A. The error says which
-/// two, by their ids in order, cannot be compared.
+/// Adds the session that two or more records share: every pair of them, and one replay of all sides
+/// in the form for the player. In every pair the peer with the lower id is A. The error names the
+/// two, by their ids in order, that cannot be compared.
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              std::span<const RecordFile> records);
 [[nodiscard]] base::Result<void> add_session(Results& results, const std::string& name,
                                              const record::Record& a, const record::Record& b);
 
-/// Reads the manifests and tables of a result folder and of its subfolders; their order does not
-/// matter. Errors begin with "FILE:". Two results that exclude each other, such as two rows of
-/// Table 1 for one algorithm, are an error.
+/// Reads the manifests and tables of a result folder and of its subfolders, in any order. Errors
+/// begin with "FILE:". Two results that exclude each other, such as two rows of Table 1 for one
+/// algorithm, are an error.
 [[nodiscard]] base::Result<Results> read_results(std::span<const File> files);
 
 } // namespace hapnet::lab::results

@@ -17,7 +17,7 @@ struct SessionFiles {
     Json peer = Json::object();     // output of hapnet-peer --stats, of the peer with id 1
     std::vector<Json> others{};     // such output of the peers with ids 2, 3, ..., if present
 
-    /// Why the session does not count, for people; empty: it does.
+    /// Returns the reasons why the session does not count, for people; empty: it does.
     [[nodiscard]] std::vector<std::string> invalid_because() const;
 };
 

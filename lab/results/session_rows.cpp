@@ -21,7 +21,8 @@ std::optional<double> constant_ms(const emulator::Variation& delay)
     return 1e3 * base::to_seconds(law->value);
 }
 
-/// The half width of a uniform jitter whose datagrams overtake one another; 0 without jitter.
+/// Returns the half width of a uniform jitter whose datagrams overtake one another; 0 without
+/// jitter.
 std::optional<double> jitter_ms(const emulator::Conditions& conditions)
 {
     if (is_nothing(conditions.jitter)) return 0.0;
@@ -31,7 +32,7 @@ std::optional<double> jitter_ms(const emulator::Conditions& conditions)
     return is_plain ? std::optional{1e3 * base::to_seconds(law->half_width)} : std::nullopt;
 }
 
-/// The only law of loss of that kind; nullptr: there is none.
+/// Returns the only loss model of that kind; nullptr: there is none.
 template <typename Law>
 const Law* loss_of(const emulator::Conditions& conditions)
 {
@@ -148,7 +149,7 @@ private:
     std::vector<SessionRow> rows_;
 };
 
-/// The conditions that two algorithms have to share to be compared.
+/// The conditions that two algorithms must share to be compared.
 using SharedCondition =
     std::tuple<std::string, std::string, std::uint32_t, std::string, std::string>;
 
@@ -169,13 +170,13 @@ constexpr std::array paired_measures{
     PairedMeasure{"force_vibration_n", &SessionRow::force_vibration_n},
     PairedMeasure{"force_above_2hz_n", &SessionRow::force_above_2hz_n}};
 
-/// The values of both, where both have one.
+/// The values of both algorithms, where both have one.
 struct Pairs {
     std::vector<double> a;
     std::vector<double> b;
 };
 
-/// A session among those of one condition: subject, trial and seed.
+/// The identity of a session under one condition: subject, trial and seed.
 using SessionId = std::tuple<std::string, std::string, std::uint64_t>;
 using ById = std::map<SessionId, const SessionRow*>;
 
@@ -184,7 +185,8 @@ SessionId id_of(const SessionRow& row)
     return {row.subject.value_or(""), row.trial.value_or(""), row.seed};
 }
 
-/// A pair for each seed; of people one for each subject, of the means of its sessions.
+/// Returns a pair for each seed; for people, a pair for each subject with the means of its
+/// sessions.
 Pairs pairs_of(const ById& a, const ById& b, const PairedMeasure& measure)
 {
     metrics::SubjectMeans of_a, of_b;

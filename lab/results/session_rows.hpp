@@ -14,7 +14,7 @@
 namespace hapnet::lab::results {
 
 /// A row of sessions.csv: a session with all its conditions, and its outcome. Delay, jitter and
-/// loss are each empty where their columns cannot describe them, or where the directions differ;
+/// loss are each empty where their columns cannot describe them, or where the directions differ.
 /// `network` has the whole profile.
 struct SessionRow {
     std::string algorithm;
@@ -87,16 +87,16 @@ constexpr auto fields_of(base::Tag<SessionRow>)
                                           const metrics::Scores& scores,
                                           const metrics::Criteria& criteria);
 
-/// Every session of an experiment that is not of the kind Claims, which has rows of its own.
-/// `results` are those of all its jobs.
+/// Returns every session of an experiment of any kind but Claims, which has its own rows. `results`
+/// are those of all its jobs.
 [[nodiscard]] std::vector<SessionRow>
 make_session_rows(const experiment::Experiment& experiment, const metrics::Criteria& criteria,
                   std::span<const experiment::JobResult> results);
 
-/// The columns of the table paired: `algorithm` - `reference` of a measure, seed by seed, or
-/// subject by subject: the mean of all sessions of a subject counts once. For limits the difference
-/// is that of p50, and there is none where one of the two was not reached; else it is the median of
-/// the seeds.
+/// The columns of the table paired. `difference` is `algorithm` - `reference` of a measure, seed by
+/// seed, or subject by subject, where the mean of all sessions of a subject counts once. For limits
+/// it is the difference of p50, and is empty where one of the two was not reached. Otherwise it is
+/// the median over the seeds.
 inline constexpr std::string_view paired_columns =
     "algorithm,reference,task,measure,seeds,difference:4,ci_low:4,ci_high:4,sign_test_p";
 /// Compares each algorithm with the first, in each task and condition that both played.

@@ -16,14 +16,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kind = "several";
 
-/// null where it is not there.
+/// Returns a value; null where it is missing.
 Json value_at(const Json& manifest, const char* key)
 {
     const auto found = manifest.find(key);
     return found == manifest.end() ? Json(nullptr) : *found;
 }
 
-/// "fig6a" of "results/fig6a" in "results".
+/// Returns "fig6a" for the folder "results/fig6a" in "results".
 std::string name_in(std::string_view folder, std::string_view root)
 {
     if (folder.starts_with(root)) folder.remove_prefix(root.size());

@@ -9,11 +9,13 @@
 
 namespace hapnet::lab::results {
 
-/// True if it is the manifest of a folder whose subfolders hold the results: see below.
+/// True if the manifest is that of a folder whose subfolders hold the results: see
+/// several_manifest().
 [[nodiscard]] bool is_of_several(const nlohmann::ordered_json& manifest);
 
-/// manifest.json of such a folder, `root`: what the manifest of each subfolder says of itself. It
-/// is valid when all are, began with the first and took as long as all together. There must be one.
+/// Returns the manifest.json of such a folder, `root`, with the facts of each subfolder's manifest.
+/// The whole is valid when all parts are. It began with the first and took as long as all together.
+/// There must be at least one subfolder.
 [[nodiscard]] nlohmann::ordered_json
 several_manifest(const Results& results, const std::string& root, Circumstances circumstances);
 

@@ -18,7 +18,7 @@ bool has_free_jitter(const experiment::Experiment& experiment)
 
 bool has_same_sessions(const experiment::Experiment& a, const experiment::Experiment& b)
 {
-    // Table 1 compares only P1 with the paper, whatever tasks stand beside it.
+    // Table 1 compares only P1 with the paper, whatever other tasks are played.
     const bool are_tasks = a.tasks == b.tasks || std::holds_alternative<experiment::Table1>(a.kind);
     return a.kind.index() == b.kind.index() && a.duration == b.duration && a.tick == b.tick &&
            are_tasks && a.peers == b.peers && a.scenes.empty() && b.scenes.empty() &&

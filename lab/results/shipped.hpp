@@ -9,13 +9,13 @@
 
 namespace hapnet::lab::results {
 
-/// True if an experiment plays what stands against the paper: the sessions of the built-in
-/// experiment of that name, judged by the built-in criteria. Seeds, ranges and the choice of
-/// algorithms may differ; of hands, tasks, conditions, scene, duration and the like nothing.
+/// True if an experiment is comparable with the paper: it plays the sessions of the built-in
+/// experiment of that name and is judged by the built-in criteria. Seeds, ranges and the choice of
+/// algorithms may differ. Hands, tasks, conditions, scene, duration and the like must be the same.
 [[nodiscard]] bool plays_as_shipped(const experiment::Experiment& experiment,
                                     const metrics::Criteria& criteria, std::string_view built_in);
 
-/// True if an algorithm is the built-in one of its name, with every default.
+/// True if an algorithm is the built-in one of its name, with all its defaults.
 [[nodiscard]] bool is_built_in(const experiment::NamedAlgorithm& algorithm);
 
 } // namespace hapnet::lab::results

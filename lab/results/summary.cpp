@@ -39,7 +39,7 @@ void raise(std::optional<metrics::ByOrder>& worst, const std::optional<metrics::
                              std::max(so_far.fourth, values->fourth)};
 }
 
-/// A session that is in every respect as bad as the worst of all.
+/// Returns scores that are in every respect as bad as the worst of all.
 metrics::Scores worst_of(std::span<const metrics::Scores> all)
 {
     metrics::Scores worst = all.front();
@@ -64,7 +64,7 @@ metrics::Scores worst_of(std::span<const metrics::Scores> all)
     return worst;
 }
 
-/// A figure of the discrepancy, of each seed or subject that has one.
+/// Returns a figure of the discrepancy for each seed or subject that has one.
 std::vector<double> discrepancies(std::span<const metrics::Scores> all,
                                   std::span<const std::string> subjects,
                                   double metrics::Spread::*figure)

@@ -13,7 +13,7 @@
 
 namespace hapnet::lab::results {
 
-/// The results of all seeds together. Means and intervals are over the seeds; with recorded people
+/// The results of all seeds together. Means and intervals are over the seeds. With recorded people
 /// they are over the subjects, each with the mean of its sessions.
 struct Summary {
     /// The figures of the discrepancy, each as its mean over the seeds.
@@ -26,11 +26,11 @@ struct Summary {
     metrics::Scores worst{};                  // each score as bad as that of the worst seed
     metrics::Tier tier = metrics::Tier::good; // tier of `worst`
     std::size_t usable = 0;                   // number of sessions that are at least usable
-    std::string limited_by{};                 // what keeps `worst` from the next tier
+    std::string limited_by{};                 // reasons why `worst` is not in the next tier
 };
 
-/// A task's scores by session; at least one. `subjects` has the subject of each; empty: they have
-/// none.
+/// Summarizes a task's scores by session; there is at least one. `subjects` has the subject of
+/// each; empty: they have none.
 [[nodiscard]] Summary summarize(std::span<const metrics::Scores> scores,
                                 const metrics::Criteria& criteria,
                                 std::span<const std::string> subjects = {});
@@ -46,15 +46,15 @@ struct Judged {
     std::optional<double> stiffness_error{};
     std::optional<double> slow_stiffness_error{};
 };
-/// The columns of its members, in their order, except stiffness errors.
+/// The columns of the members of Judged, in their order, except stiffness errors.
 inline constexpr std::string_view judged_columns =
     "mean_mm:3,vibration_mm:3,stiffness_ratio:4,force_vibration_n:4,tier,turned_apart_deg:3?";
 /// The columns of stiffness errors. They come after the columns of the parties.
 inline constexpr std::string_view stiffness_error_columns =
     "stiffness_error:4?,slow_stiffness_error:4?";
 
-/// Returns the figures that are judged: the worst ones, by the filter that the criteria use. The
-/// mean is the typical one.
+/// Returns the figures that are judged: the worst ones, by the filter of the criteria. The mean is
+/// the typical one.
 [[nodiscard]] Judged make_judged(const Summary& summary, const metrics::Criteria& criteria);
 
 } // namespace hapnet::lab::results

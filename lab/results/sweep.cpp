@@ -74,7 +74,7 @@ void add_measures(const SessionRow& row, std::vector<Cell>& cells)
     cells.push_back(to_cell(row.tier));
 }
 
-/// All cells of a condition but the seed.
+/// Returns all cells of a condition but the seed.
 std::vector<Cell> condition_of(const SweepRow& row)
 {
     auto cells = condition_cells(row);
@@ -88,7 +88,7 @@ struct Condition {
     std::uint32_t left_out = 0;
 };
 
-/// Keeps one attempt of each seed, a valid one if there is any.
+/// Stores one attempt for each seed, a valid one if there is any.
 void note(const SweepRow& row, std::map<std::uint64_t, const SweepRow*>& by_seed)
 {
     const SweepRow*& kept = by_seed[row.real.seed];
@@ -102,7 +102,7 @@ double mean_over(const std::vector<double>& values)
     return sum / static_cast<double>(values.size());
 }
 
-/// Leaves the row empty where no session has the measure.
+/// Compares a measure. The row stays empty where no session has the measure.
 void compare(const Condition& condition, const SweepMeasure& measure, ConditionRow& row)
 {
     std::vector<double> real, simulated;

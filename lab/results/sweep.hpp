@@ -17,7 +17,7 @@
 
 namespace hapnet::lab::results {
 
-// An experiment that the daemons have played, beside the same sessions in virtual time.
+// An experiment that the daemons have played, with the same sessions in virtual time.
 
 /// The outcome of a session that was played once.
 struct PlayedCell {
@@ -34,7 +34,7 @@ struct PlayedCell {
 /// Reads an object. The error names the key that is missing or has another type.
 [[nodiscard]] base::Result<PlayedCell> played_cell_from(const nlohmann::json& json);
 
-/// A row of the table real_time_sessions: a session as it was played once.
+/// A row of the table real_time_sessions: one attempt at a session.
 struct SweepRow {
     std::string point; // point of the axes, such as "hands.stiffness=100N/m"
     SessionRow real{};
@@ -55,7 +55,7 @@ struct SweepCell {
 [[nodiscard]] SweepRow make_sweep_row(const SweepCell& cell, const PlayedCell& played,
                                       const metrics::Criteria& criteria);
 
-/// The table real_time_sessions.
+/// Returns the table real_time_sessions.
 [[nodiscard]] Table sweep_table(std::span<const SweepRow> rows);
 
 /// A row of the table real_time_conditions: a measure of all valid sessions of one condition.
@@ -95,7 +95,7 @@ constexpr auto fields_of(base::Tag<ConditionRow>)
         base::field("ci_high_percent", &Row::ci_high_percent, two));
 }
 [[nodiscard]] std::vector<ConditionRow> make_condition_rows(std::span<const SweepRow> rows);
-/// The rows as lines of text for a person.
+/// Returns the rows as lines of text for a person.
 [[nodiscard]] std::string conditions_table(std::span<const ConditionRow> rows);
 
 } // namespace hapnet::lab::results

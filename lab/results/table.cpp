@@ -12,7 +12,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// The ends of keys and what they stand for; of two that fit the first counts.
+/// The endings of keys and their units. Of two that match the first counts.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> units{{{"_of_100", "of 100"},
                                                                               {"_percent", "%"},
                                                                               {"_mm", "mm"},
@@ -36,7 +36,7 @@ bool is_filled(const Table& table, std::size_t column)
     });
 }
 
-/// The cell of a field's value.
+/// Returns the cell of a field's value.
 Cell cell_of_field(const base::FieldRow& row, const void* owner)
 {
     const void* value = row.in(owner);

@@ -19,15 +19,15 @@
 
 namespace hapnet::lab::results {
 
-// Tables of results: what an experiment found, in rows of cells. A result folder has each of them
-// as CSV, for people and other programs, and in results.json, from which reports and comparisons
-// are made: docs/formats/experiment.md.
+// Tables of results: the findings of an experiment, in rows of cells. A result folder has each
+// table as CSV, for people and other programs, and in results.json, from which reports and
+// comparisons are made: docs/formats/experiment.md.
 
-/// A flag, a whole number, a number or a text; std::monostate: there is none.
+/// A flag, a whole number, a number or a text; std::monostate: no value.
 using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
-/// The files in which a column stands: each file; only where a row has a value; in JSON and not in
-/// CSV.
+/// The files that contain a column: every file; only files in which a row has a value for it; JSON
+/// but not CSV.
 enum class Stands : std::uint8_t { always, if_filled, in_json };
 
 struct Column {
@@ -36,13 +36,13 @@ struct Column {
     Stands stands = Stands::always;
 };
 
-/// Columns in a line, as the CSV has them: "mean_mm:3" has three decimals; "scene?" stands only
-/// where a row fills it, "band+" in JSON alone.
+/// Returns the columns of a header line. "mean_mm:3" has three decimals. The column of "scene?" is
+/// present only if a row has a value for it, that of "band+" only in JSON.
 [[nodiscard]] std::vector<Column> columns_in(std::string_view line);
 
-/// The unit at the end of a key: "mm" of "mean_mm"; empty: it has none.
+/// Returns the unit at the end of a key: "mm" of "mean_mm"; empty: it has none.
 [[nodiscard]] std::string_view unit_of(std::string_view key);
-/// The words of a key without its unit: "paper mean" of "paper_mean_mm".
+/// Returns the words of a key without its unit: "paper mean" of "paper_mean_mm".
 [[nodiscard]] std::string label_of(std::string_view key);
 
 /// Returns the cell of a value: of an optional, of a name of an enum, or of a number. A number that
@@ -70,26 +70,26 @@ struct Table {
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows{};
 
-    /// Appends a row of one value for each column.
+    /// Appends a row with one value for each column.
     template <typename... Values>
     void add(const Values&... values)
     {
         rows.push_back({to_cell(values)...});
     }
-    /// The place of a column; nullopt: there is none.
+    /// Returns the place of a column; nullopt: there is none.
     [[nodiscard]] std::optional<std::size_t> place_of(std::string_view key) const;
     [[nodiscard]] bool is_empty() const { return rows.empty(); }
 };
 
-/// A row of a table that outlives it, by the keys of its columns.
+/// A row of a table, with its cells by the keys of the columns. The table must outlive it.
 class TableRow {
 public:
     TableRow(const Table& table, std::size_t index) : table_{&table}, cells_{&table.rows[index]} {}
 
-    /// std::monostate where there is no such column.
+    /// Returns the cell of a column; std::monostate where there is no such column.
     [[nodiscard]] const Cell& operator[](std::string_view key) const;
     [[nodiscard]] std::optional<double> number(std::string_view key) const;
-    /// The cell's text: a number with as many digits as it takes, empty for no value.
+    /// Returns the cell's text: a number with as many digits as needed; empty for no value.
     [[nodiscard]] std::string text(std::string_view key) const;
 
 private:
@@ -100,23 +100,23 @@ private:
 using Rows = std::vector<TableRow>;
 [[nodiscard]] Rows rows_of(const Table& table);
 
-/// A cell as a text: a number with as many digits as it takes, nothing as "".
+/// Returns a cell as a text: a number with as many digits as needed; "" for no value.
 [[nodiscard]] std::string to_text(const Cell& cell);
 
-/// A cell that all rows of a part of a table have before their own cells.
+/// A cell that all rows of a part of a table get before their own cells.
 struct LeadingCell {
     std::string key;
     Cell cell;
 };
 [[nodiscard]] Table with_leading(const std::vector<LeadingCell>& leading, Table table);
 
-/// Appends the rows of a part. Missing columns are added, except those that stand only where a row
-/// fills them and no row does. A row has empty cells in columns that it lacks.
+/// Appends the rows of a part. Missing columns are added, except optional ones (Stands::if_filled)
+/// for which no row has a value. A row has empty cells in columns that it lacks.
 void append(Table& table, const Table& part);
-/// The table without the columns that stand only where a row fills them and none does.
+/// Returns the table without the optional columns (Stands::if_filled) for which no row has a value.
 [[nodiscard]] Table filled(const Table& table);
 
-/// The rows of structs whose fields are described.
+/// Returns a table of structs with described fields.
 [[nodiscard]] Table table_of(std::string name, const base::FieldTable& fields,
                              std::span<const void* const> values);
 template <base::Described T>

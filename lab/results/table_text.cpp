@@ -38,7 +38,7 @@ std::string json_cell(const Cell& cell)
     return to_text(cell);
 }
 
-/// Returns the texts that `text_of` gives for each cell of a row, with commas.
+/// Returns the texts of a row's cells by `text_of`, with commas between them.
 template <typename TextOf>
 std::string with_commas(const Table& table, std::size_t row, bool of_json, const TextOf& text_of)
 {
@@ -72,8 +72,8 @@ Cell cell_of_json(const Json& json)
     return {};
 }
 
-/// Returns nullopt when a row has not as many cells as there are columns. Throws Json::exception
-/// where a member is missing or has another type.
+/// Returns the table in a JSON value; nullopt when a row has not as many cells as there are
+/// columns. Throws Json::exception where a member is missing or has another type.
 std::optional<Table> table_in(const std::string& name, const Json& json)
 {
     Table table{name, {}};
@@ -179,8 +179,8 @@ base::Result<std::vector<Table>> read_tables(std::string_view text, const std::s
         return base::fail(
             fmt::format("{}: not what this version of hapnet-lab writes: {}", path, why));
     };
-    // Parts that nest deeper than in any file of this program are left out: they could exhaust the
-    // stack.
+    // Parts that nest deeper than in any file of this program are left out, as they could exhaust
+    // the stack.
     constexpr int depth_max = 8;
     const Json json = Json::parse(
         text, [](int depth, Json::parse_event_t, const Json&) { return depth <= depth_max; },

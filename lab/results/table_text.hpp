@@ -16,35 +16,35 @@ namespace hapnet::lab::results {
 //     {"version": 1, "tables": {"limits": {"columns": [...], "rows": [[...], ...]}, ...}}
 
 inline constexpr const char* tables_name = "results.json";
-/// The sessions of an experiment one by one: there can be a million of them.
+/// The file of the single sessions of an experiment, of which there can be a million.
 inline constexpr const char* sessions_name = "sessions.json";
 /// The file of the sessions in real time beside the results of an experiment.
 inline constexpr const char* real_time_name = "real_time.json";
 
-// The parts of the texts, which come one after the other.
+// The parts of the texts, in their order.
 
 [[nodiscard]] std::string csv_header(const std::vector<Column>& columns);
-/// `1,2.500,"a, b"`, without a line's end.
+/// Returns a row such as `1,2.500,"a, b"`, without a line end.
 [[nodiscard]] std::string csv_line(const Table& table, std::size_t row);
-/// `1,2.5,"a, b"`, without the brackets.
+/// Returns a row such as `1,2.5,"a, b"`, without the brackets.
 [[nodiscard]] std::string json_line(const Table& table, std::size_t row);
 
 inline constexpr std::string_view json_begin = "{\"version\":1,\"tables\":{";
 inline constexpr std::string_view json_end = "}}\n";
-/// `"limits":{"columns":[...],"rows":[`, which `]}` ends.
+/// Returns the head `"limits":{"columns":[...],"rows":[`. `]}` closes it.
 [[nodiscard]] std::string json_head(const std::string& name, const std::vector<Column>& columns);
 
-// The texts of files, without the columns that stand only where a row fills them and none does.
+// The texts of files, without optional columns (Stands::if_filled) for which no row has a value.
 
 [[nodiscard]] std::string csv_text(const Table& table);
 [[nodiscard]] std::string json_text(std::span<const Table> tables);
-/// The cells of the CSV in columns of equal width, for people.
+/// Returns the cells of the CSV in columns of equal width, for people.
 [[nodiscard]] std::string aligned_text(const Table& table);
 
-/// The rows as objects by the keys of the columns.
+/// Returns the rows as objects by the keys of the columns.
 [[nodiscard]] nlohmann::ordered_json json_objects(const Table& table);
 
-/// The tables of a file of JSON. The error names the file, and what is wrong in it.
+/// Reads the tables of a JSON file. The error names the file and what is wrong in it.
 [[nodiscard]] base::Result<std::vector<Table>> read_tables(std::string_view text,
                                                            const std::string& path);
 

@@ -11,7 +11,7 @@ namespace hapnet::lab::results {
 
 namespace {
 
-/// Less, and found rather than not.
+/// True if `a` is a worse limit: a lower one, or an equal one that was found while `b` is open.
 bool is_worse(const TaskLimit& a, const TaskLimit& b)
 {
     const auto rank = [](const TaskLimit& one) {
@@ -32,7 +32,7 @@ std::vector<std::string_view> failed_metrics(const metrics::Scores& scores, metr
     return judgement.failed;
 }
 
-/// See TaskLimit::decided_by.
+/// Returns TaskLimit::decided_by.
 std::string_view decided_by(const experiment::SearchResult& search, const TaskLimit& limit,
                             const metrics::Criteria& criteria)
 {
@@ -65,7 +65,7 @@ bool fails_at_rest(const std::vector<metrics::LevelOutcome>& outcomes)
     return lowest.level == 0.0 && 2 * failed >= lowest.failed.size();
 }
 
-/// See TaskLimit::message_bits. Level N of the interval has a message in every N ticks.
+/// Returns TaskLimit::message_bits. At level N of the interval there is a message in every N ticks.
 std::optional<double> message_bits(const experiment::SearchJob& job,
                                    const experiment::SearchResult& search, base::Duration tick)
 {
@@ -78,7 +78,7 @@ std::optional<double> message_bits(const experiment::SearchJob& job,
     return std::nullopt;
 }
 
-/// The limits of a task, of each tier.
+/// Returns the limits of a task, one for each tier.
 std::vector<TaskLimit> limits_of(const experiment::SearchJob& job,
                                  const experiment::SearchResult& search,
                                  const experiment::Experiment& experiment,

@@ -9,17 +9,17 @@
 
 namespace hapnet::lab::results {
 
-// Verdicts on results in words: cells of their tables.
+// Verdicts on results: cells of their tables.
 
-/// The comparison of a result with the paper's claim. Undecided: its interval contains an edge of
-/// the range that would agree.
+/// The comparison of a result with the paper's claim. Undecided: the result's interval contains an
+/// edge of the range of agreement.
 enum class Claim : std::uint8_t { none, calibrated, met, missed, undecided };
 constexpr auto names_of(base::Tag<Claim>)
 {
     return base::names("", "calibrated", "met", "missed", "undecided");
 }
 
-/// The origin of a number that stands beside one of the paper's.
+/// The origin of a number that is compared with one of the paper's.
 enum class Provenance : std::uint8_t {
     none,            // no number of the paper to compare with
     calibrated,      // fitted to the paper's number

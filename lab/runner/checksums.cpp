@@ -59,7 +59,7 @@ std::string sum_of(std::string_view text)
     return ended<line_sum_bytes>(hash.add(std::as_bytes(std::span{text})));
 }
 
-/// The digest that the manifest of a folder names; "": it names none.
+/// Returns the digest in the manifest of a folder; "": there is none.
 std::string digest_in(const fs::path& folder)
 {
     const auto path = folder / "manifest.json";

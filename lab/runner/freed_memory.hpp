@@ -6,9 +6,9 @@
 
 namespace hapnet::lab::runner {
 
-/// Lets the program keep the memory that it has freed. The trace of a session is 8 MB: to give it
-/// back to the system and get it again, page by page, takes an eighth of the time in which the
-/// session is played (measured 2026, AMD EPYC, Linux 6.18).
+/// Lets the program keep the memory that it has freed. The trace of a session is 8 MB. To return it
+/// to the system and get it again, page by page, takes an eighth of the time in which the session
+/// is played (measured 2026, AMD EPYC, Linux 6.18).
 inline void keep_freed_memory()
 {
     // Larger blocks come straight from the system. glibc accepts no higher threshold.

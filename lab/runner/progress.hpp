@@ -10,17 +10,18 @@
 
 namespace hapnet::lab::runner {
 
-/// "412/~1300 sessions (31 %), 41.2/s, 22 s left": the total is what the jobs that are done make
-/// likely. `reused` sessions took no time.
+/// Returns a text such as "412/~1300 sessions (31 %), 41.2/s, 22 s left". The total is extrapolated
+/// from the finished jobs. `reused` sessions took no time.
 [[nodiscard]] std::string progress_text(const RunProgress& progress, base::Duration elapsed);
 
-/// The line of progress on stderr: rewritten in place on a terminal, else a new line now and then.
+/// The line of progress on stderr. On a terminal it is rewritten in place; elsewhere a new line
+/// appears now and then.
 class ProgressLine {
 public:
     explicit ProgressLine(base::TimePoint start);
 
     void show(const RunProgress& progress, base::TimePoint now);
-    /// Leaves the line as it is.
+    /// Ends the line and leaves its last text on the screen.
     void finish();
 
 private:

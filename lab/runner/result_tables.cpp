@@ -18,7 +18,7 @@ namespace hapnet::lab::runner {
 
 namespace {
 
-/// A line of a file, whose memory serves the next line.
+/// A line of a file. Its memory is used again for the next line.
 class Line {
 public:
     Line() = default;
@@ -26,13 +26,13 @@ public:
     Line& operator=(const Line&) = delete;
     ~Line() { std::free(text_); } // NOLINT(cppcoreguidelines-no-malloc): that of getline()
 
-    /// Reads the next line. False: there is none, or it cannot be read.
+    /// Reads the next line. Returns false if there is none, or if it cannot be read.
     [[nodiscard]] bool read(std::FILE* file)
     {
         length_ = getline(&text_, &size_, file);
         return length_ > 0;
     }
-    /// The line without its end.
+    /// Returns the line without its end.
     [[nodiscard]] std::string_view text() const
     {
         return {text_, static_cast<std::size_t>(length_ - 1)};

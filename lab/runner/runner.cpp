@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 /// The interval at which the caller's thread checks the others.
 constexpr base::Duration look_interval = 20ms;
 
-/// The threads of a run and what they share.
+/// The threads of a run and their shared data.
 class WorkerPool {
 public:
     WorkerPool(std::span<const Assignment> jobs, const metrics::Criteria& criteria,
@@ -48,7 +48,7 @@ public:
         return {jobs_.size(), jobs_done_, runner_.store.counts()};
     }
 
-    /// Returns nullopt when it was stopped.
+    /// Returns the results; nullopt when the run was stopped.
     base::Result<std::optional<std::vector<experiment::JobResult>>> results()
     {
         join();

@@ -13,7 +13,7 @@
 
 namespace hapnet::lab::runner {
 
-/// Plays one session; gives up soon after `stop` became true, and then fails.
+/// Plays one session. It gives up soon after `stop` became true, and then fails.
 using StoppablePlay = std::function<base::Result<experiment::PlayedSession>(
     const experiment::SessionSpec&, const std::atomic<bool>& stop)>;
 
@@ -21,7 +21,7 @@ using StoppablePlay = std::function<base::Result<experiment::PlayedSession>(
 [[nodiscard]] base::Result<experiment::PlayedSession>
 play_in_virtual_time(const experiment::SessionSpec& spec, const std::atomic<bool>& stop);
 
-/// A job and the experiment that it is of.
+/// A job and its experiment.
 struct Assignment {
     const experiment::Experiment* experiment = nullptr;
     experiment::Job job{};
@@ -34,18 +34,18 @@ struct RunProgress {
     SessionStore::Counts sessions;
 };
 
-/// The means to carry out an experiment: threads, one job each at a time.
+/// The means to run an experiment: threads that each do one job at a time.
 struct Runner {
     SessionStore& store;
     StoppablePlay play;
     unsigned threads = 1;
-    /// Called on the caller's thread every 20 ms, and at the end.
+    /// The function that is called on the caller's thread every 20 ms, and at the end.
     std::function<void(const RunProgress&)> on_progress;
 };
 
-/// The results of all jobs, in their order: the same for any number of threads. nullopt when `stop`
-/// was requested before the end; the sessions played until then are in the store. Throws what a
-/// thread has thrown.
+/// Returns the results of all jobs, in their order. They are the same for any number of threads.
+/// nullopt when `stop` was requested before the end; the sessions played until then are in the
+/// store. Rethrows the exception of a thread.
 [[nodiscard]] base::Result<std::optional<std::vector<experiment::JobResult>>>
 run_all(std::span<const Assignment> jobs, const metrics::Criteria& criteria, const Runner& runner,
         net::StopSignal& stop);

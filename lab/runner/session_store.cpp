@@ -64,8 +64,9 @@ Json line_of(const std::string& key, const experiment::SessionSpec& spec,
     return line;
 }
 
-/// Calls `use` with each line of a file, without its end, and where it begins. Says how long the
-/// file is, and whether its last line has an end.
+/// The result of reading a file line by line. `use` is called with each line of the file, without
+/// its end, and with the place where it begins. The result holds the length of the file, and
+/// whether its last line has an end.
 struct LinesRead {
     std::uint64_t length = 0;
     bool is_whole = true;

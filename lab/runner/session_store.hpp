@@ -29,17 +29,17 @@ struct FolderIdentity {
 };
 
 /// The sessions that an experiment has played, in files of JSON lines. Each session is appended as
-/// soon as it is over, so that a run that is interrupted loses none of them. Memory holds only the
-/// place of each. Several threads may use it; no session is played twice.
+/// soon as it is over, so that an interrupted run loses none of them. Memory holds only their
+/// places in the files. Several threads may use the store; no session is played twice.
 class SessionStore {
 public:
-    /// Reads what is there, and keeps others from writing. The error: the file belongs to another
-    /// experiment, or another run has it. Throws std::system_error when it cannot be written.
-    /// `program` is who plays: sessions of another one are not known.
+    /// Reads the stored sessions and locks the file against other runs. Fails when the file belongs
+    /// to another experiment, or when another run has it open. Throws std::system_error when it
+    /// cannot be written. `program` is the program that plays: sessions of another one are ignored.
     [[nodiscard]] static base::Result<std::unique_ptr<SessionStore>>
     open(const std::string& path, const FolderIdentity& identity, std::string program);
-    /// The sessions of all these files; further ones are not kept. The error: a file belongs to
-    /// another experiment.
+    /// Opens the sessions of all these files read-only. Fails when a file belongs to another
+    /// experiment.
     [[nodiscard]] static base::Result<std::unique_ptr<SessionStore>>
     open_all(std::span<const std::string> paths, const FolderIdentity& identity,
              std::string program);
@@ -48,7 +48,7 @@ public:
     SessionStore& operator=(const SessionStore&) = delete;
 
     /// Returns the stored session of a spec, or plays it with `play`. Throws std::system_error when
-    /// it cannot be read or kept.
+    /// it cannot be read or stored.
     [[nodiscard]] base::Result<experiment::PlayedSession>
     played(const experiment::SessionSpec& spec, const experiment::PlaySession& play);
 
@@ -58,8 +58,9 @@ public:
     };
     [[nodiscard]] Counts counts() const;
 
-    /// The number of lines of the files that are no session with the right checksum, and the place
-    /// of the first; nullopt: none. A line is cut off when something ends its writer.
+    /// Describes the damaged lines of the files: the number of lines that are not a session with
+    /// the right checksum, and the place of the first; nullopt: there are none. A line is cut off
+    /// when its writer was killed.
     [[nodiscard]] std::optional<std::string> damage() const;
     [[nodiscard]] std::size_t damaged_lines() const { return damaged_; }
 
@@ -69,7 +70,7 @@ private:
         std::size_t file = 0;
         std::uint64_t offset = 0;
         std::uint32_t length = 0;
-        bool is_from_before = false; // from an earlier run, and not asked for in this one so far
+        bool is_from_before = false; // from an earlier run, and not yet requested in this one
     };
     struct File {
         disk::Descriptor descriptor;
@@ -80,10 +81,10 @@ private:
     explicit SessionStore(std::string program);
     /// Reads the last of the files.
     [[nodiscard]] base::Result<void> read_last(const FolderIdentity& identity);
-    /// Takes a line into the index. Returns false when the line is damaged.
+    /// Adds a line to the index. Returns false when the line is damaged.
     [[nodiscard]] bool take_line(std::string_view text, const Place& place);
     void append(const std::string& line);
-    /// Returns where the session of a key is stored; nullopt: it is not known.
+    /// Returns the place where the session of a key is stored; nullopt: it is not stored.
     [[nodiscard]] std::optional<Place> place_of(const std::string& key);
     [[nodiscard]] experiment::PlayedSession read_at(const Place& place,
                                                     const std::string& key) const;

@@ -71,7 +71,7 @@ std::string hips_text(const scene::HandDescription& hips)
                                   : std::string{"not limited"});
 }
 
-/// Prints a bound without the parts that are zero.
+/// Returns a bound as a text without the parts that are zero.
 std::string bound_text(const TickBound& bound)
 {
     std::vector<std::string> parts;

@@ -17,7 +17,7 @@
 
 namespace hapnet::lab::scenes {
 
-/// A feature that a tick may have to support, and why the scene needs it, or not.
+/// A feature that a tick may have to support, and the reason why the scene needs it or not.
 struct FeatureReport {
     scene::Requirement of;
 };
@@ -36,7 +36,7 @@ constexpr auto fields_of(base::Tag<FeatureReport>)
                             "Why, or why not."));
 }
 
-/// The most that a tick takes.
+/// The greatest cost of a tick.
 struct TickBound : scene::TickCost {};
 constexpr auto fields_of(base::Tag<TickBound>)
 {
@@ -50,7 +50,7 @@ constexpr auto fields_of(base::Tag<TickBound>)
         base::member("looks", &B::looks).told("looks at bodies that go far"));
 }
 
-/// A tick that would cost less than the one chosen, and what it cannot do for the scene.
+/// A tick that would cost less than the chosen one, and the features that it lacks for the scene.
 struct CheaperTick {
     scene::StepperKind profile = scene::StepperKind::flight;
     std::vector<std::string_view> lacks; // names of the missing features
@@ -65,7 +65,7 @@ constexpr auto fields_of(base::Tag<CheaperTick>)
         base::member("lacks", &C::lacks, "The features that it does not have."));
 }
 
-/// The least and the greatest of the masses that can move.
+/// The least and the greatest mass of the movable bodies.
 struct MassRange {
     double least_kg = 0.0;
     double most_kg = 0.0;
@@ -97,11 +97,11 @@ constexpr auto fields_of(base::Tag<HandsReport>)
             "Of one contact; null: not limited."));
 }
 
-/// The hash as peers and pages print it.
+/// Returns the hash in the form in which peers and pages print it.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
-/// A scene's properties, the features that it needs of a tick, the reasons, and the tick that it
-/// gets.
+/// A scene's properties, the features that it needs of a tick with the reasons, and the chosen
+/// tick.
 struct Explanation {
     std::string name;
     std::uint64_t hash = 0; // hash of the scene, which peers compare
@@ -150,14 +150,15 @@ constexpr auto fields_of(base::Tag<Explanation>)
         base::member("tick_bound", &E::bound, "The most that a tick takes."));
 }
 
-/// `description` is one that scene::check() accepts; bodies at rest fall asleep when `sleeping`.
+/// Explains a scene. scene::check() must accept `description`. Bodies at rest fall asleep if
+/// `sleeping`.
 [[nodiscard]] Explanation explain(const scene::Description& description, base::Duration tick,
                                   bool sleeping);
 
-/// An explanation for programs: units in the names, null where there is nothing to say.
+/// Returns an explanation for programs: units are in the names; null stands for a missing value.
 [[nodiscard]] nlohmann::ordered_json to_json(const Explanation& explanation);
 
-/// An explanation for people: lines of text.
+/// Returns an explanation for people: lines of text.
 [[nodiscard]] std::string to_table(const Explanation& explanation);
 
 } // namespace hapnet::lab::scenes

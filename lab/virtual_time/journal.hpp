@@ -12,24 +12,24 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// The record that a daemon would make of a player in virtual time: a row for each of its ticks,
-/// for each message that reaches it, and, once a second, for what it has agreed on with each of the
-/// others.
+/// The record that a daemon would make of a player in virtual time. It has a row for each tick and
+/// each message that reaches the player. Once a second it has a row for each of the other players,
+/// with the state of their agreement.
 class Journal {
 public:
     using Sink = std::function<void(const record::Row& row)>;
 
-    /// The player outlives it.
+    /// The player must outlive the journal.
     Journal(const VirtualPlayer& player, Sink sink);
 
-    /// The message of the player in that seat, before it is handed over.
+    /// Notes a message from the player in that seat. Call it before the message is handed over.
     void on_message(std::size_t from_seat, const VirtualWorld::Arrival& arrival);
     /// Notes a tick. Call it after each tick of the player.
     void on_tick();
 
-    /// The number of ticks so far.
+    /// Returns the number of ticks so far.
     [[nodiscard]] std::uint64_t ticks() const { return tick_; }
-    /// True if its bodies have rows of their own.
+    /// True if the player's bodies have rows of their own.
     [[nodiscard]] bool has_bodies() const { return has_bodies_; }
 
 private:

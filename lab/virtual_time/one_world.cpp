@@ -17,11 +17,11 @@ namespace hapnet::lab::virtual_time {
 
 namespace {
 
-/// Hands come to rest where their task begins.
+/// The time in which hands come to rest where their task begins.
 constexpr base::Duration countdown{std::chrono::seconds{1}};
 constexpr std::int64_t ticks_between_looks = 1024; // ticks between two looks at `stop`
 
-/// The share of a contact's force that a peer renders.
+/// Returns the share of a contact's force that a peer renders.
 double rendered_share(const Setting& setting)
 {
     const peer::Settings usual;
@@ -31,7 +31,7 @@ double rendered_share(const Setting& setting)
         peer::passive_share(wall, base::to_seconds(setting.tick), usual.grip_damping_ns_per_m));
 }
 
-/// All hands in one scene.
+/// A session with all hands in one scene.
 class OneWorld {
 public:
     explicit OneWorld(const Setting& setting)
@@ -48,7 +48,7 @@ public:
         for (std::size_t seat = 0; seat < setting.players.size(); ++seat) seat_player(seat);
     }
 
-    /// Returns false when `stop` became true meanwhile.
+    /// Plays the session. Returns false when `stop` became true meanwhile.
     bool play(const std::atomic<bool>* stop)
     {
         const base::TimePoint start = VirtualWorld::start + countdown;

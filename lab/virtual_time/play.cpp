@@ -15,13 +15,14 @@ namespace hapnet::lab::virtual_time {
 
 namespace {
 
-/// Sides that have not begun by then never will: at a loss of 99 % both ways two take 10 s.
+/// The time within which sides must begin. Later they never will: at a loss of 99 % in both
+/// directions two sides take 10 s.
 constexpr base::Duration begins_within{std::chrono::seconds{60}};
 constexpr std::int64_t steps_between_looks = 1024; // steps between two looks at `stop`
-/// Once all let go, the copies have this long to agree again.
+/// The time that the copies have to agree again after all hands let go.
 constexpr base::Duration settles_within{std::chrono::seconds{2}};
 
-/// One side while it was in session: one sample a tick, without gaps.
+/// One side while it was in session: one sample per tick, without gaps.
 struct Track {
     base::TimePoint first;
     std::vector<Sample> samples;
@@ -29,7 +30,7 @@ struct Track {
     std::vector<base::TimePoint> times; // times of the samples, if any side ticks unevenly
 };
 
-/// True if a link was full, so that a datagram was lost which the emulator would have kept.
+/// True if a link was full, so that it lost a datagram which the emulator would have kept.
 bool has_overflowed(const VirtualWorld& world)
 {
     const std::size_t players = world.setting().players.size();
@@ -43,7 +44,7 @@ bool has_overflowed(const VirtualWorld& world)
     return false;
 }
 
-/// The bits that each direction has carried so far, with the headers of UDP over IPv4.
+/// The number of bits that each direction has carried so far, with the headers of UDP over IPv4.
 struct Traffic {
     base::TimePoint at;
     std::vector<double> bits;
@@ -79,7 +80,7 @@ bool has_own_ticks(const PlayerSetting& player) { return player.ticks != nullptr
 
 bool is_playing(const VirtualPlayer& player) { return player.last().phase == peer::Phase::running; }
 
-/// A session on its way.
+/// A session in progress.
 class Play {
 public:
     Play(VirtualWorld& world, PlaysOn plays_on)
@@ -90,7 +91,7 @@ public:
           are_even_{std::ranges::none_of(world.setting().players, has_own_ticks)}
     {}
 
-    /// Plays until it is over. Returns false when `stop` became true before.
+    /// Plays until the session is over. Returns false when `stop` became true before.
     [[nodiscard]] bool run(const std::atomic<bool>* stop)
     {
         for (std::int64_t step = 0; !over_; ++step) {
@@ -190,7 +191,7 @@ void Play::note_settled()
     }
 }
 
-/// The point from which a track is read: `tick` samples into it, and `share` of a tick more.
+/// The point from which a track is read: sample number `tick`, and `share` of a tick more.
 struct Offset {
     base::Duration::rep tick = 0;
     double share = 0.0;
@@ -198,7 +199,8 @@ struct Offset {
     [[nodiscard]] base::Duration::rep beyond() const { return share > 0.0 ? 1 : 0; }
 };
 
-/// Keeps `count` ticks of a track from `from` on, each of `each` values, and drops the others.
+/// Keeps `count` ticks of a track, beginning at `from`, each with `each` values, and drops the
+/// others.
 template <typename Value>
 void take(std::vector<Value>& values, const Offset& from, base::Duration::rep count,
           std::size_t each = 1)
@@ -213,15 +215,15 @@ void take(std::vector<Value>& values, const Offset& from, base::Duration::rep co
     values.resize(kept);
 }
 
-/// A track in the order of time, between its samples.
+/// Reads a track between its samples, in the order of time.
 class UnevenTrack {
 public:
     UnevenTrack(const Track& track, std::size_t further_bodies)
         : track_{track}, bodies_{further_bodies}
     {}
 
-    /// Adds what the track has at a time. It is within the track, and not before that of the last
-    /// call.
+    /// Adds the interpolated values of the track at a time. The time is within the track, and not
+    /// before that of the last call.
     void add_at(base::TimePoint time, std::vector<Sample>& samples, std::vector<Pose>& further)
     {
         while (at_ + 1 < track_.times.size() && track_.times[at_ + 1] <= time) ++at_;
@@ -247,8 +249,8 @@ private:
 /// of them, and returns their number.
 base::Duration::rep Play::take_even(base::TimePoint& begin, Trace& trace)
 {
-    // The first side's samples before the last began are left out; the others' are taken at its
-    // times.
+    // The first side's samples before the last side began are left out. The other sides' samples
+    // are taken at the first side's times.
     const base::TimePoint first = tracks_.front().first;
     const base::TimePoint last = std::ranges::max(tracks_, {}, &Track::first).first;
     const auto skipped = (last - first + tick_ - base::Duration{1}) / tick_;
@@ -274,7 +276,7 @@ base::Duration::rep Play::take_even(base::TimePoint& begin, Trace& trace)
     return common;
 }
 
-/// As take_even(), at even times between ticks that are not even.
+/// As take_even(), with even times between uneven ticks.
 base::Duration::rep Play::take_uneven(base::TimePoint& begin, Trace& trace) const
 {
     begin = std::ranges::max(tracks_, {}, &Track::first).first;
@@ -334,7 +336,8 @@ base::Result<Trace> play(const Setting& setting, const std::atomic<bool>* stop, 
     VirtualWorld world{setting};
     std::optional<Trace> trace = play_out(world, stop, plays_on);
     if (trace && has_overflowed(world)) {
-        // Datagrams were in flight by the thousand: again, with the memory that the emulator has.
+        // Thousands of datagrams were in flight. The session is played again, with as much memory
+        // as the emulator has.
         VirtualWorld roomy{setting, {}};
         trace = play_out(roomy, stop, plays_on);
     }

@@ -13,8 +13,8 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// The sessions that go on with hands off, to measure how far apart the copies settle: those whose
-/// copies take their time to agree again (several bodies, or one that turns), or all.
+/// The sessions that continue with hands off, to measure how far apart the copies settle: either
+/// those whose copies need time to agree again (several bodies, or one that turns), or all.
 enum class PlaysOn : std::uint8_t { where_it_takes_time, always };
 
 /// Plays a session from the first hello to its end in virtual time, on the cores that the daemons
@@ -24,7 +24,7 @@ enum class PlaysOn : std::uint8_t { where_it_takes_time, always };
                                        const std::atomic<bool>* stop = nullptr,
                                        PlaysOn plays_on = PlaysOn::where_it_takes_time);
 
-/// Plays the first group of a new world to its end: for players with other devices. nullopt when
+/// Plays the first group of a new world to its end, for players with special devices. nullopt when
 /// `stop` became true meanwhile.
 [[nodiscard]] std::optional<Trace> play_out(VirtualWorld& world,
                                             const std::atomic<bool>* stop = nullptr,

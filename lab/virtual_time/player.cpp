@@ -23,7 +23,7 @@ std::uint16_t tick_rate_hz(base::Duration tick)
     return static_cast<std::uint16_t>(std::min<base::Duration::rep>(rate, UINT16_MAX));
 }
 
-/// In a pair, each accepts any peer that answers.
+/// Returns the roster of a player. In a pair, each accepts any peer that answers.
 peer::Roster roster_of(const Setting& setting, const PlayerId& id)
 {
     peer::Roster roster;
@@ -70,7 +70,7 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId
                           .way = player.way});
 }
 
-/// Returns a secret that follows from two numbers: virtual time has nothing to keep from anybody.
+/// Returns a secret that follows from two numbers. In virtual time nothing needs to be secret.
 secure::Secret secret_of(std::uint64_t circle, std::uint64_t run)
 {
     std::array<std::byte, 2 * sizeof(std::uint64_t)> text{};
@@ -81,7 +81,7 @@ secure::Secret secret_of(std::uint64_t circle, std::uint64_t run)
     return secure::Secret{std::span{hash}.first<secure::key_bytes>()};
 }
 
-/// The keys of a circle, which are those of a file for each of its members.
+/// Returns the keys of a circle, in the form of a key file for each of its members.
 std::vector<secure::KeyFile> key_files(base::Seed circle, std::size_t players)
 {
     secure::prepare();
@@ -106,7 +106,7 @@ peer::line::Line sealed_line(const secure::KeyFile& own, const secure::KeyFile::
     config.circle = own.circle();
     config.run = id.nonce;
     config.place = place_of(other.id - std::size_t{1});
-    // Each line of each run draws its own: ids have 5 bits.
+    // Each line of each run draws its own numbers: ids have 5 bits.
     const std::uint64_t run = std::uint64_t{id.nonce} << 10 | std::uint64_t{own.id} << 5 | other.id;
     return peer::line::Line{std::make_unique<peer::line::Sealed>(config, own.keys_with(other),
                                                                  secret_of(circle.value(), run))};
@@ -157,7 +157,7 @@ void VirtualPlayer::step(base::TimePoint now)
     side->step(now + clock_ahead, rig);
     while (const auto notice = side->notice()) events.push_back(notice->event);
     const base::TimePoint here = now + clock_ahead;
-    // One line in each tick, and so at most one multiplication on the curve.
+    // Only one line per tick is tended, so there is at most one multiplication on the curve.
     if (++tended >= lines.size()) tended = 0;
     lines[tended].tick({here, (here + date_ahead).time_since_epoch().count()});
 }

@@ -22,7 +22,7 @@ struct PlayerId {
     std::uint32_t nonce = 1;
 };
 
-/// The place of a player on the network.
+/// Returns the place of a player on the network.
 [[nodiscard]] inline secure::Place place_of(std::size_t seat)
 {
     secure::Place place{};
@@ -30,17 +30,17 @@ struct PlayerId {
     return place;
 }
 
-/// The device of a player, behind its governor.
+/// Makes the device of a player, behind its governor.
 [[nodiscard]] device::Rig make_rig(const Setting& setting, const PlayerId& id);
 
-/// One player of a session in virtual time: everything that a peer daemon has but socket, clock,
-/// thread and journal.
+/// One player of a session in virtual time: a peer daemon without socket, clock, thread and
+/// journal.
 class VirtualPlayer {
 public:
     VirtualPlayer(const Setting& setting, const PlayerId& id);
 
-    /// A datagram that reached this machine at `arrived`, in the world's time, from `place`, on the
-    /// line to one of the others.
+    /// Receives a datagram that reached this machine at `arrived`, in the world's time, from
+    /// `place`, on the line to one of the other players.
     void receive(std::size_t other, const secure::Place& place, std::span<const std::byte> datagram,
                  base::TimePoint arrived)
     {
@@ -54,10 +54,10 @@ public:
         receive(other, place_of(other < own_seat ? other : other + 1), datagram, arrived);
     }
 
-    /// Plays one tick of its loop, except for sending.
+    /// Plays one tick of the loop, except for sending.
     void step(base::TimePoint now);
-    /// Sends the messages of that tick: calls send(other, bytes, place) for each datagram, `other`
-    /// being the number of the line.
+    /// Sends the messages of that tick. Calls send(other, bytes, place) for each datagram, where
+    /// `other` is the number of the line.
     template <typename Send>
     void send_all(Send send)
     {
@@ -73,12 +73,12 @@ public:
     [[nodiscard]] const peer::Peer& peer() const { return side->peer(); }
     [[nodiscard]] const peer::Tick& last() const { return side->tick(); }
     [[nodiscard]] base::Force told() const { return side->told(); }
-    /// Its last tick, for the metrics.
+    /// Returns the state of its last tick, for the metrics.
     [[nodiscard]] Sample sample() const;
-    /// Adds the poses that the shared bodies after the first have after its last tick.
+    /// Adds the poses after its last tick of all shared bodies but the first.
     void add_further_bodies(std::vector<Pose>& poses) const;
 
-    // Open to tests and benches, which change them.
+    // These members are public for tests and benches, which change them.
     device::Rig rig;
     std::unique_ptr<peer::Side> side;
     std::vector<peer::line::Line> lines; // one to each other player, in the order of their ids
@@ -88,7 +88,7 @@ public:
 
     bool can_turn = false;           // true if the shared body can turn
     base::TimePoint stepped_at;      // time of its last tick, in the world's time
-    std::size_t tended = 0;          // index of the line whose keys were looked after last
+    std::size_t tended = 0;          // index of the line whose keys were renewed last
     std::vector<peer::Event> events; // all events so far
 };
 

@@ -30,48 +30,49 @@ struct PlayerSetting {
     peer::SendPolicy send{};
     peer::Playout playout = peer::Playout::none;
     device::Operator person{};
-    /// The recorded hand that plays instead of the person; at least one moment, in the order of
-    /// time.
+    /// The recorded hand that plays instead of the person. It has at least one moment; the moments
+    /// are in the order of time.
     std::shared_ptr<const device::HandTrace> replay{};
-    /// The wishes of a page, which moves the hand if there is no replay.
+    /// The wishes of a page. The page moves the hand if there is no replay.
     std::shared_ptr<device::HandWishes> page{};
-    /// The way that the person means to go, instead of its task's; at least one moment.
+    /// The motion that the person intends, instead of that of the task; at least one moment.
     std::shared_ptr<const device::HandTrace> way{};
     base::Duration clock_ahead{}; // the player's clock minus the world's time
     base::Duration phase{};       // offset of the player's ticks, 0 to less than a tick
-    /// The times of its ticks, counted from the session's start, ascending, as in a loop that woke
-    /// late and missed ticks. It ticks evenly before the first and after the last of them, or
-    /// without any.
+    /// The times of the player's ticks, counted from the session's start, ascending, as in a loop
+    /// that woke late and missed ticks. The player ticks evenly before the first and after the last
+    /// of them, and also if there are none.
     std::shared_ptr<const std::vector<base::Duration>> ticks{};
-    /// The seed that it offers for the hands, as `hapnet-peer --seed` does; that of the lowest id
-    /// counts. nullopt: the setting's.
+    /// The seed for the hands that the player offers, as `hapnet-peer --seed` does. That of the
+    /// lowest id counts. nullopt: the setting's seed.
     std::optional<base::Seed> seed{};
-    /// The circle whose keys, which follow from this seed, seal its messages. Players meet only
-    /// within a circle. nullopt: without a key.
+    /// The seed of the circle. The circle's keys follow from it and seal the player's messages.
+    /// Players meet only within a circle. nullopt: without a key.
     std::optional<base::Seed> circle{};
 };
 
-/// All inputs of a session in virtual time: equal settings, equal bits.
+/// All inputs of a session in virtual time. Equal settings give equal bits.
 struct Setting {
     device::Task task = device::Task::p1;
     device::TaskOptions task_options{};
     scene::Description scene = scene::paper_scene();
-    /// The seed of the links, whatever the profile says, and of the hands.
+    /// The seed of the links, whatever the profile states, and of the hands.
     base::Seed seed{42};
     base::Duration length{std::chrono::seconds{30}}; // time with hands off included
     base::Duration tick{std::chrono::milliseconds{1}};
-    /// Conditions both ways between any two; its timeline counts from the first hello. Among more
-    /// than two players, its conditions for link "1-2" hold between the players with these ids.
+    /// The conditions in both directions between any two players; the timeline counts from the
+    /// first hello. With more than two players, the conditions for link "1-2" apply between the
+    /// players with these ids.
     emulator::Profile profile{};
     /// True if all hands play in one scene, without a network, which excludes all effects of the
     /// profile and the algorithms. See in_one_world().
     bool is_one_world = false;
     bool energy_limit = false; // limits the energy into the hands as the daemons do
-    /// Two to eight, with the ids 1, 2, ...; the 1st, 3rd, ... acts as A, the others as B. Up is
-    /// from the lower id to the higher.
+    /// Two to eight players, with the ids 1, 2, .... The 1st, 3rd, ... act as A, the others as B.
+    /// The direction "up" is from the lower id to the higher.
     std::vector<PlayerSetting> players = std::vector<PlayerSetting>(2);
-    /// The number of players, of more than two, that must hear each other before they start; 0:
-    /// all. Others join.
+    /// The number of players, of more than two, that must hear each other before the session
+    /// starts; 0: all. Others join later.
     std::size_t wait_for = 0;
 };
 
@@ -79,11 +80,11 @@ struct Setting {
 /// algorithms, networks and clocks.
 [[nodiscard]] Setting in_one_world(Setting setting);
 
-/// The links of a session between this number of players, as `hapnet-emulator --link` calls them:
-/// "1-2", "1-3", "2-3". With two players only "", the only path.
+/// Returns the names of the links of a session between this number of players, in the form of
+/// `hapnet-emulator --link`: "1-2", "1-3", "2-3". With two players there is only "", the only path.
 [[nodiscard]] std::vector<std::string> links_between(std::size_t players);
 
-/// An error when no session can be played with this setting; its message says what to do.
+/// Checks a setting. Fails when no session can be played with it; the error says what to do.
 [[nodiscard]] base::Result<void> validate(const Setting& setting);
 
 } // namespace hapnet::lab::virtual_time

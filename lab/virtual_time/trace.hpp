@@ -20,33 +20,33 @@ struct Sample {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0}; // orientation of the body, if it can turn
     base::Position hip;                         // haptic interface point, as the device reports it
     base::Velocity hip_velocity;
-    base::Force on_hand; // force that the device was told, after the governor
+    base::Force on_hand; // force sent to the device, after the governor
     base::Force on_body; // force of this side's hand on the body
     bool touching = false;
     bool holding = false;
     bool remote_touching = false; // another side's hand touches, as far as this side knows
 };
 
-/// The place and the orientation of a body.
+/// The position and the orientation of a body.
 struct Pose {
     base::Position position;
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
 };
 
-/// The greatest distance and the greatest angle between copies of a body, once they have had time
+/// The greatest distance and the greatest angle between copies of a body, after they have had time
 /// to agree again.
 struct Settled {
     double metres = 0.0;
     double radians = 0.0;
 };
 
-/// The sides of a session while all were running, at equal times: sample i of each is i ticks
-/// after the first. It comes from virtual time or from records; metrics do not know which.
+/// The sides of a session while all were running, at equal times. Sample i of each side is i ticks
+/// after the first. The trace comes from virtual time or from records; metrics make no difference.
 struct Trace {
     device::Task task = device::Task::p1;
     base::Duration tick{std::chrono::milliseconds{1}};
     base::Duration begin{}; // time of sample 0, from the session's start
-    /// Two or more, equally long, in the order of their ids: the 1st, 3rd, ... acts as A, the
+    /// Two or more sides, equally long, in the order of their ids. The 1st, 3rd, ... act as A, the
     /// others as B.
     std::vector<std::vector<Sample>> sides = std::vector<std::vector<Sample>>(2);
     /// The poses of the further shared bodies on each side: `further_bodies` entries after each
@@ -54,7 +54,8 @@ struct Trace {
     std::vector<std::vector<Pose>> further{};
     std::size_t further_bodies = 0;
     /// The greatest differences between the copies of each shared body, from 2 s after hands off to
-    /// the end, where several are shared or one that can turn; empty: not played so far.
+    /// the end. They are measured where several bodies are shared, or one that can turn. Empty: the
+    /// session was not played so far.
     std::vector<Settled> settled{};
     /// The share of the session, 0 to 1, in which all were running; hands off not counted.
     double overlap = 0.0;
@@ -64,10 +65,10 @@ struct Trace {
     base::Duration simulated{}; // virtual time played, from the first hello; 0 for records
 };
 
-/// A side between two of its samples, `share` (0 to 1) of the way, on a straight line. Its flags
-/// are the earlier sample's; with share 0 all of it is the earlier sample.
+/// Returns a side between two of its samples, at `share` (0 to 1), by linear interpolation. Its
+/// flags are the earlier sample's. With share 0 it is the earlier sample.
 [[nodiscard]] Sample between(const Sample& earlier, const Sample& later, double share);
-/// A body between two of its samples, in the same way.
+/// Returns a body between two of its samples, in the same way.
 [[nodiscard]] Pose between(const Pose& earlier, const Pose& later, double share);
 
 } // namespace hapnet::lab::virtual_time

@@ -46,7 +46,8 @@ void VirtualWorld::add_ways(Group& group)
     for (const std::string& name : links_between(group.size)) std::ignore = group.paths.add(name);
     const auto& paths = group.paths.all();
     const auto path_between = [&](std::size_t low, std::size_t high) {
-        // The paths from the seats below come first: size - 1 from the first, then one less each.
+        // The paths from lower seats come first: size - 1 from the first seat, then one less from
+        // each.
         const std::size_t before = low * (2 * group.size - low - 1) / 2;
         return paths[before + high - low - 1].path.get();
     };
@@ -102,7 +103,7 @@ void VirtualWorld::step()
 {
     now_ = next_deadline();
     for (Group& group : groups_) group.paths.advance(now_);
-    // A datagram that is sent in a tick does not reach a tick at the same time.
+    // A datagram that is sent in a tick does not reach another tick at the same time.
     for (std::size_t side = 0; side < sides_.size(); ++side) {
         if (sides_[side].next_tick == now_) deliver(side);
     }

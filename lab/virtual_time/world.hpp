@@ -17,47 +17,48 @@
 
 namespace hapnet::lab::virtual_time {
 
-/// Players in groups of two to eight, each a session, and links between any two of a group, on one
-/// timeline, which jumps from deadline to deadline: to the next tick of any player, or to the next
-/// step of a profile. A datagram that is due between two ticks of its receiver waits in the
-/// receiver's socket: it is handed over at the next tick, stamped with the time at which it was
-/// due.
+/// Players in groups of two to eight, each group a session, and links between any two players of a
+/// group, on one timeline. The timeline jumps from deadline to deadline: to the next tick of any
+/// player, or to the next step of a profile. A datagram that is due between two ticks of its
+/// receiver waits in the receiver's socket. It is handed over at the next tick, stamped with the
+/// time at which it was due.
 ///
 /// The sides, one for each player, are numbered group after group. In the first group the number of
-/// a side is its seat. Random draws of a link are those of an emulator with this link: see
+/// a side is its seat. The random draws of a link are those of an emulator with this link: see
 /// links_between().
 class VirtualWorld {
 public:
     /// The time when every world and the timelines of its profiles begin.
     static constexpr base::TimePoint start{std::chrono::seconds{1000}};
     /// The default bound on the datagrams in a link: 1 s of them, which fit into a processor's
-    /// cache. Memory for the emulator's own bound would take longer to set up than a session takes.
+    /// cache. It takes longer to set up memory for the emulator's own bound than to play a session.
     static constexpr emulator::QueueLimits few{.datagrams_max = 1024, .bytes_max = 4U << 20};
 
     /// A world of one group. The setting must be valid: see validate().
     explicit VirtualWorld(const Setting& setting, emulator::QueueLimits limits = few);
     /// A world with one group for each setting.
     explicit VirtualWorld(std::span<const Setting> settings, emulator::QueueLimits limits = few);
-    // Defined in world.cpp, so that not every file that uses a VirtualWorld compiles them.
+    // These are defined in world.cpp, so that not every file that uses a VirtualWorld compiles
+    // them.
     ~VirtualWorld();
     VirtualWorld(VirtualWorld&&) noexcept;
     VirtualWorld& operator=(VirtualWorld&&) noexcept;
     VirtualWorld(const VirtualWorld&) = delete;
     VirtualWorld& operator=(const VirtualWorld&) = delete;
 
-    /// Goes on to the next deadline, and does all that happens then.
+    /// Advances to the next deadline, and does everything that is due then.
     void step();
-    /// The time when step() will do something.
+    /// Returns the time of the next deadline.
     [[nodiscard]] base::TimePoint next_deadline() const;
-    /// Plays all that happens within `duration` from now, its end included.
+    /// Plays everything that happens within `duration` from now, its end included.
     void run_for(base::Duration duration);
 
     /// Kills a side at once. It sends no goodbye.
     void kill(std::size_t side) { sides_[side].player.reset(); }
-    /// Starts it again as a new run.
+    /// Starts a killed side again as a new run.
     void revive(std::size_t side);
     [[nodiscard]] bool is_alive(std::size_t side) const { return sides_[side].player.has_value(); }
-    /// Lets nothing pass between two sides of a group while `is_cut` is true.
+    /// Blocks all datagrams between two sides of a group while `is_cut` is true.
     void cut(std::size_t a, std::size_t b, bool is_cut);
     /// Cuts a side off from all others of its group while `is_cut` is true.
     void isolate(std::size_t side, bool is_cut);
@@ -69,8 +70,8 @@ public:
         std::span<const std::byte> datagram;
         base::TimePoint at;
     };
-    /// A function between the links and the sides. It is called with each datagram instead of the
-    /// side that the datagram is for. It may pass any bytes to that side: VirtualPlayer::receive().
+    /// A function between the links and the sides. It gets each datagram instead of the side for
+    /// which the datagram is meant. It may pass any bytes to that side by VirtualPlayer::receive().
     using Interceptor = std::function<void(const Arrival& arrival)>;
     void intercept(Interceptor interceptor) { interceptor_ = std::move(interceptor); }
 
@@ -83,10 +84,10 @@ public:
     {
         return groups_[group].setting;
     }
-    /// The links of a group: what holds on them may be changed between two steps.
+    /// Returns the links of a group. Their conditions may be changed between two steps.
     [[nodiscard]] emulator::Paths& paths(std::size_t group = 0) { return groups_[group].paths; }
     [[nodiscard]] std::size_t groups() const { return groups_.size(); }
-    /// The group of a side, and its seat there.
+    /// Returns the group of a side. seat_of() returns its seat there.
     [[nodiscard]] std::size_t group_of(std::size_t side) const { return sides_[side].group; }
     [[nodiscard]] std::size_t seat_of(std::size_t side) const
     {
@@ -94,7 +95,7 @@ public:
     }
     [[nodiscard]] base::TimePoint now() const { return now_; }
     [[nodiscard]] std::size_t sides() const { return sides_.size(); }
-    /// The link from a side to another one of its group.
+    /// Returns the link from a side to another one of its group.
     [[nodiscard]] const emulator::Link& link(std::size_t from, std::size_t to) const
     {
         const Way& way = ways_[way_between(from, to)];
@@ -111,16 +112,18 @@ private:
     struct Side {
         std::optional<VirtualPlayer> player;
         std::size_t group = 0;
-        /// The index in `ways_` of the first of the ways from it, one to each other side by seat.
+        /// The index in `ways_` of the first direction from this side. There is one to each other
+        /// side, by seat.
         std::size_t first_out = 0;
-        /// The indices in `ways_` of the ways to it, in the order of the senders' seats.
+        /// The indices in `ways_` of the directions to this side, in the order of the senders'
+        /// seats.
         std::vector<std::size_t> ins{};
         base::TimePoint next_tick;
         base::Duration tick;
         std::shared_ptr<const std::vector<base::Duration>> ticks{}; // see PlayerSetting::ticks
-        std::size_t ticks_begun = 0; // how many of `ticks` have begun
+        std::size_t ticks_begun = 0; // number of `ticks` that have begun
     };
-    /// The way from one side of a group to another.
+    /// The direction from one side of a group to another.
     struct Way {
         emulator::EmulatedPath* path;
         emulator::Direction direction;

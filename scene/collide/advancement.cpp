@@ -12,14 +12,15 @@ namespace hapnet::scene {
 
 namespace {
 
-// The share of the rest of the time that one axis should clear, before others are asked.
+// The share of the remaining time that one axis should clear. If it clears less, other axes are
+// tried.
 constexpr double worthwhile = 0.25;
 
-/// The widest gap that counts, if it is one.
+/// Returns the widest gap that counts, or 0 if only overlaps count.
 double widest(const GapSearch& search) { return std::max(0.0, search.gap + search.near); }
 
-/// Limits a search to the time in which the spheres around two are near each other. Returns false
-/// if they never are, as for most.
+/// Limits a search to the time in which the bounding spheres of two bodies are near each other.
+/// Returns false if they never are, as for most pairs.
 bool narrow_to_spheres(const SteadyBox& a, const SteadyBox& b, GapSearch& search)
 {
     const glm::dvec3 velocity = b.velocity - a.velocity;
@@ -33,7 +34,7 @@ bool narrow_to_spheres(const SteadyBox& a, const SteadyBox& b, GapSearch& search
     if (root < 0.0) return false;
     const double time = search.to - search.from;
     const double half = std::sqrt(root);
-    // Rounding: a little earlier, and a little later.
+    // The margin for rounding: the search begins a little earlier and ends a little later.
     constexpr double more = 1e-9;
     const double enter = outside > 0.0 ? (1.0 - more) * outside / (along + half) : 0.0;
     if (enter >= time) return false;
@@ -58,8 +59,8 @@ Advanced advance_by(const GapSearch& search, std::uint32_t& steps, Look look)
     return {search.to, Advanced::End::clear};
 }
 
-/// Returns the time for which two bodies whose corners go round stay more than `gap` apart along a
-/// normal, however far they turn.
+/// Returns the time for which two bodies stay more than `gap` apart along a normal, however far
+/// they turn.
 double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, double gap)
 {
     const double room = glm::dot(normal, b.pivot() - a.pivot()) - gap -
@@ -69,8 +70,8 @@ double time_beside(const Mover& a, const Mover& b, const glm::dvec3& normal, dou
     return approach > 0.0 ? room / approach : HUGE_VAL;
 }
 
-/// As time_beside(), along normals that belong to the way in which the bodies turn, and not to
-/// their present orientation.
+/// As time_beside(), along normals that belong to the bodies' axes of rotation and not to their
+/// present orientations.
 double time_beside_any(const Mover& a, const Mover& b, double gap)
 {
     const glm::dvec3 offset = b.pivot() - a.pivot();
@@ -83,7 +84,7 @@ double time_beside_any(const Mover& a, const Mover& b, double gap)
     return std::max({along(offset), along(a.motion.spin), along(b.motion.spin)});
 }
 
-/// Advances two that do not turn; exact.
+/// Advances two bodies that do not turn; exact.
 Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& search)
 {
     const glm::dvec3 offset = b.box.centre - a.box.centre;
@@ -121,14 +122,14 @@ Advanced advance_straight(const Mover& a, const Mover& b, const GapSearch& searc
     return {search.from + enter, Advanced::End::reached};
 }
 
-/// The greatest acceleration of a turning body's corners towards the axis: m/s^2.
+/// Returns the greatest acceleration of a turning body's corners towards the axis, m/s^2.
 double bend_of(const Mover& mover)
 {
     return mover.speed_of_turning * mover.speed_of_turning * mover.whirl.widest;
 }
 
-/// Adds how far one reaches along a normal that stays, and how that changes: the half edges of a
-/// box, the core of a round body.
+/// Adds the extent of one body along a constant normal, and its rate of change: those of the half
+/// edges of a box, or of the core of a round body.
 std::size_t add_parts(Forecast& forecast, std::size_t count, const Mover& mover,
                       const glm::dvec3& normal)
 {
@@ -145,9 +146,9 @@ std::size_t add_parts(Forecast& forecast, std::size_t count, const Mover& mover,
     return count;
 }
 
-/// Advances two of which one is round, along the one normal that separates them. Without turns that
-/// is Newton's method, as their distance is convex then. A core has one edge at most, so that the
-/// parts of both are four at most.
+/// Advances two bodies of which one is round, along the single normal that separates them. Without
+/// rotation that is Newton's method, as their distance is then convex. A core has at most one edge,
+/// so that the two bodies have at most four parts.
 Advanced advance_round(Mover& a, Mover& b, const GapSearch& search, std::uint32_t& steps)
 {
     const bool whirl = a.whirl.is_known || b.whirl.is_known;
@@ -222,7 +223,8 @@ Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b, const GapSearch&
                 return std::min(left, most);
             };
             double left = time_left(open.axes[open.widest]);
-            // Any axis that stays open is as good. It pays to ask the others when it was not far.
+            // Any axis that stays open is as good as the widest. If that clears little time, it
+            // pays to try the others.
             for (std::size_t i = 0; i < open.count && left < worthwhile * most; ++i)
                 if (i != open.widest) left = std::max(left, time_left(open.axes[i]));
             if (whirl && left < worthwhile * most)

@@ -9,8 +9,8 @@
 
 namespace hapnet::scene {
 
-/// The event to look for: the first time in [from, to] at which a gap has shrunk to `gap`, which
-/// may be an overlap; a gap not wider than that by `near` counts.
+/// The event to look for: the first time in [from, to] at which a gap has shrunk to `gap`. `gap`
+/// may be negative, which means an overlap. A gap that is wider by at most `near` counts, too.
 struct GapSearch {
     double gap = 0.0;
     double near = 0.0;
@@ -18,16 +18,16 @@ struct GapSearch {
     double to = 0.0;
 };
 
-/// The gap is wider than was asked for until `time`.
+/// The result of a search: the gap is wider than `GapSearch::gap` until `time`.
 struct Advanced {
     enum class End : std::uint8_t { clear, reached, unfinished };
     double time = 0.0;
     End end = End::clear;
 };
 
-/// Conservative advancement (Mirtich 1996), with rotation: steps of the gap over a bound of the
-/// speed at which it can shrink. So it never steps over a touch. `steps` is what it may still take:
-/// a look at the two each; it takes off what it took.
+/// Finds the event by conservative advancement (Mirtich 1996), with rotation. Each step is the gap
+/// over a bound of the speed at which it can shrink, so that no touch is stepped over. `steps` is
+/// the number of steps that the search may still take. The search subtracts the steps that it took.
 [[nodiscard]] Advanced advance_to_gap(const SteadyBox& a, const SteadyBox& b,
                                       const GapSearch& search, std::uint32_t& steps);
 [[nodiscard]] Advanced advance_to_gap(const PlaneSurface& plane, const SteadyBox& box,

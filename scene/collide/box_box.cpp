@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-// Separating axes after Gottschalk, Lin and Manocha 1996. Along each of the 15 axes two boxes are
-// apart by the distance of their centres less what each extends; where all are negative they
-// overlap, and the greatest says which features meet. The choice has slack: a face before an edge,
-// the last tick's axis before another.
+// Separating axes after Gottschalk, Lin and Manocha 1996. The separation along each of the 15 axes
+// is the distance of the boxes' centres less the half extents of both. Where all separations are
+// negative the boxes overlap, and the greatest one determines which features meet. The choice has
+// slack: it prefers a face to an edge, and the last tick's axis to others.
 
 namespace hapnet::scene {
 
@@ -24,8 +24,8 @@ using Triple = std::array<double, 3>;
 
 constexpr int first_edge_axis = 6;
 constexpr double slack_of_half = 1.0 / 128.0;
-// Squared sine of the angle below which two edges count as parallel: the faces' axes are within
-// it, and a normal from so short a cross product would be of rounding errors.
+// The squared sine of the angle below which two edges count as parallel. The faces' axes are then
+// within that angle, and a normal from so short a cross product would consist of rounding errors.
 constexpr double parallel = 1e-6;
 
 EdgePair edges_of(int axis)
@@ -38,14 +38,15 @@ double slack(const OrientedBox& a, const OrientedBox& b)
     return slack_of_half * smallest_half(a, b);
 }
 
-/// No points, and none written.
+/// Returns a manifold without points. The points are not written.
 Manifold apart()
 {
     Manifold manifold;
     return manifold;
 }
 
-/// The distance of `other` from the face of `owner` that looks at it along one of the owner's axes.
+/// Returns the distance of `other` from the face of `owner` that faces it, across one of the
+/// owner's axes.
 double face_separation(const OrientedBox& owner, const OrientedBox& other, int axis)
 {
     const glm::dvec3& normal = owner.axes[axis];
@@ -58,7 +59,7 @@ double face_separation_of(const OrientedBox& a, const OrientedBox& b, int axis)
     return axis < 3 ? face_separation(a, b, axis) : face_separation(b, a, axis - 3);
 }
 
-/// True if two edges' common normal keeps the boxes more than `margin` apart.
+/// True if the boxes are more than `margin` apart along the common normal of two edges.
 bool edges_separate(const OrientedBox& a, const OrientedBox& b, EdgePair edges, double margin)
 {
     const glm::dvec3 normal = glm::cross(a.axes[edges.of_a], b.axes[edges.of_b]);
@@ -83,7 +84,7 @@ Manifold touching_on_face(const OrientedBox& a, const OrientedBox& b, int axis, 
                     : exchanged(face_manifold(b, a, axis - 3, margin));
 }
 
-/// An axis, and how far apart the boxes are along it.
+/// An axis, and the separation of the boxes along it.
 struct Candidate {
     double separation = -HUGE_VAL;
     int axis = -1;
@@ -94,7 +95,7 @@ struct Candidate {
     }
 };
 
-/// All axes at once: two boxes, each seen from the other.
+/// The separations along all axes: two boxes, each in the frame of the other.
 class Separations {
 public:
     Separations(const OrientedBox& a, const OrientedBox& b)
@@ -126,13 +127,13 @@ public:
                 (half_a_[0] * size_[0][j] + half_a_[1] * size_[1][j] + half_a_[2] * size_[2][j]));
     }
 
-    /// Squared length of the cross product of two edges.
+    /// Returns the squared length of the cross product of two edges.
     [[nodiscard]] double square(std::size_t i, std::size_t j) const
     {
         return 1.0 - size_[i][j] * size_[i][j];
     }
 
-    /// Times the length of the cross product.
+    /// Returns the separation along the cross product of two edges, times its length.
     [[nodiscard]] double edges(std::size_t i, std::size_t j) const
     {
         const std::size_t i1 = (i + 1) % 3;
@@ -156,7 +157,8 @@ private:
     Triple half_b_{};
 };
 
-/// The result of the axes: one that separates by more than the margin, or the best of each kind.
+/// The result of the test of all axes: one that separates by more than the margin, or the best of
+/// each kind.
 struct Verdict {
     int separating = -1;
     Candidate face_a;
@@ -194,14 +196,14 @@ Verdict judge(const Separations& separations, double margin)
     return verdict;
 }
 
-/// The area of the face that a candidate names, up to a factor.
+/// Returns the area of a candidate's face, up to a factor.
 double area(const OrientedBox& box, int axis)
 {
     return box.half[(axis + 1) % 3] * box.half[(axis + 2) % 3];
 }
 
-/// The best face of both boxes: of two equally good ones the larger, for the other then lies
-/// within it; else the first box's.
+/// Returns the best face of both boxes. Of two equally good faces it is the larger, since the other
+/// one then lies within it; else the first box's.
 Candidate better_face(const OrientedBox& a, const OrientedBox& b, const Verdict& verdict)
 {
     const Candidate& face_a = verdict.face_a;
@@ -214,7 +216,7 @@ Candidate better_face(const OrientedBox& a, const OrientedBox& b, const Verdict&
     return is_larger ? face_b : face_a;
 }
 
-/// The edges' axis to try: last tick's while it is nearly as good as the best.
+/// Returns the edges' axis to try: last tick's while it is nearly as good as the best.
 int better_edges(const Separations& separations, const Candidate& best, double room, int last)
 {
     if (last < first_edge_axis) return best.axis;
@@ -226,7 +228,7 @@ int better_edges(const Separations& separations, const Candidate& best, double r
     return separation >= best.separation - room ? last : best.axis;
 }
 
-/// All 15 axes, and the points where the features meet that they name.
+/// Tests all 15 axes and finds the points where the features of the best one meet.
 Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBoxMemory& memory)
 {
     const Separations separations{a, b};
@@ -246,7 +248,8 @@ Manifold search(const OrientedBox& a, const OrientedBox& b, double margin, BoxBo
     const bool are_edges = lead > (were_edges ? 0.5 : 1.0) * room;
     const int edges = better_edges(separations, verdict.edge, room, last);
 
-    // The slack may have chosen features that do not meet: then the next best do, at last the best.
+    // The slack may have chosen features that do not meet. Then the next best are tried, and
+    // finally the best.
     const std::array<int, 6> axes{are_edges ? edges : face.axis,
                                   are_edges ? verdict.edge.axis : edges,
                                   face.axis,

@@ -15,7 +15,7 @@ namespace {
 constexpr double flush = 1.0 / 256.0; // share of a half edge
 constexpr std::uint32_t polygon_max = 8;
 
-/// A corner of the polygon where the faces lie on each other, in the reference face's plane.
+/// A corner of the polygon where the faces overlap, in the plane of the reference face.
 struct Vertex {
     double u = 0.0;
     double v = 0.0;
@@ -30,7 +30,8 @@ struct Polygon {
 
     void add(const Vertex& vertex) { at[count++] = vertex; }
 
-    /// In a sliver along an edge a cut may find the same features twice: the first stands.
+    /// Adds a vertex with new features. In a sliver along an edge a cut may find the same features
+    /// twice; only the first vertex is kept.
     void add_new(const Vertex& vertex)
     {
         for (std::uint32_t k = 0; k < count; ++k) {
@@ -40,7 +41,7 @@ struct Polygon {
     }
 };
 
-/// The reference face's rectangle, and the incident face's parallelogram seen from it.
+/// The reference face's rectangle, and the incident face as a parallelogram in its coordinates.
 struct Faces {
     int axis_u = 1; // axes of the reference box: the two next to the face's own, cyclically
     int axis_v = 2;
@@ -74,7 +75,7 @@ struct Strip {
 
     [[nodiscard]] double place(const Vertex& vertex) const { return is_v ? vertex.v : vertex.u; }
 
-    /// True if the line from here to there crosses a side, and is not along it.
+    /// True if the line from `here` to `there` crosses a side and does not run along it.
     [[nodiscard]] bool is_crossed(double here, double there) const
     {
         return here - limit < -tolerance && there - limit > tolerance;
@@ -96,8 +97,8 @@ Vertex crossing(const Vertex& within, const Vertex& without, const Strip& strip,
     return result;
 }
 
-/// The part of a polygon within a strip. Both sides are cut at once: a mirrored polygon gives the
-/// same bits.
+/// Returns the part of a polygon within a strip. Both sides are cut at once, so a mirrored polygon
+/// gives the same bits.
 Polygon cut(const Polygon& polygon, const Strip& strip)
 {
     Polygon result;
@@ -117,10 +118,10 @@ Polygon cut(const Polygon& polygon, const Strip& strip)
     return result;
 }
 
-/// Four of more vertices: the outermost towards the four corners of the reference face, those that
-/// lie deep before others. The directions are turned a little the way in which the incident face
-/// is, so that of the eight corners of two like squares, twisted, every second is taken and not
-/// two neighbours, and so that a mirrored scene is treated mirrored.
+/// Returns four of more vertices: the outermost towards the four corners of the reference face,
+/// deep ones first. The directions are turned a little in the sense in which the incident face is
+/// twisted. So of the eight corners of two equal, twisted squares every second one is taken, and
+/// not two neighbours. A mirrored scene is treated mirrored.
 Polygon outermost(const Polygon& polygon, const Faces& faces)
 {
     constexpr double lean = 15.0 / 16.0;
@@ -231,7 +232,8 @@ Polygon incident_corners(const Faces& faces)
     return polygon;
 }
 
-/// Leaves those at most `margin` off, brought onto the reference face where they lie on its border.
+/// Keeps the vertices that are at most `margin` away. Those on the border of the reference face are
+/// moved onto the face.
 void leave_near(Polygon& polygon, const Faces& faces, double margin)
 {
     std::uint32_t count = 0;
@@ -283,7 +285,7 @@ namespace {
 
 constexpr double passing_of_half = 1.0 / 256.0;
 
-/// The edge along an axis that lies farthest in a direction.
+/// The edge along an axis that is farthest in a direction.
 struct Edge {
     glm::dvec3 centre{0.0};
     FeatureBits feature = 0;

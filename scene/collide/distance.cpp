@@ -36,7 +36,7 @@ struct Segment {
     glm::dvec3 along{0.0};
 };
 
-/// The edges of a box: four along each axis.
+/// Returns the edges of a box: four along each axis.
 std::array<Segment, 12> edges_of(const OrientedBox& box)
 {
     std::array<Segment, 12> edges;
@@ -51,7 +51,8 @@ std::array<Segment, 12> edges_of(const OrientedBox& box)
     return edges;
 }
 
-/// The nearest points of two segments (after C. Ericson, Real-Time Collision Detection, 5.1.9).
+/// Returns the nearest points of two segments (after C. Ericson, Real-Time Collision Detection,
+/// 5.1.9).
 std::array<glm::dvec3, 2> nearest(const Segment& p, const Segment& q)
 {
     const glm::dvec3 offset = p.from - q.from;
@@ -61,14 +62,15 @@ std::array<glm::dvec3, 2> nearest(const Segment& p, const Segment& q)
     const double po = glm::dot(p.along, offset);
     const double qo = glm::dot(q.along, offset);
     const double across = pp * qq - pq * pq;
-    constexpr double alike = 1e-16; // parallel: any point of p will do: corners count, too
+    constexpr double alike = 1e-16; // parallel: any point of p will do, as corners are tested, too
     double s = across > alike * pp * qq ? std::clamp((pq * qo - po * qq) / across, 0.0, 1.0) : 0.0;
     const double t = std::clamp((pq * s + qo) / qq, 0.0, 1.0);
     s = std::clamp((pq * t - po) / pp, 0.0, 1.0);
     return {p.from + s * p.along, q.from + t * q.along};
 }
 
-/// The axis along which two boxes overlap least, or are apart: `distance` and `direction` alone.
+/// Returns the separation along the axis along which two boxes are farthest apart or overlap least.
+/// Sets only `distance` and `direction`.
 Separation along_best_axis(const OrientedBox& first, const OrientedBox& second)
 {
     Separation best{.distance = -std::numeric_limits<double>::infinity()};
@@ -93,7 +95,7 @@ Separation along_best_axis(const OrientedBox& first, const OrientedBox& second)
     return best;
 }
 
-/// The middle of the corner, edge or face that is farthest along a direction.
+/// Returns the middle of the corner, edge or face that is farthest along a direction.
 glm::dvec3 farthest(const OrientedBox& box, const glm::dvec3& direction)
 {
     glm::dvec3 point = box.centre;

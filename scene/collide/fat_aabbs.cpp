@@ -20,12 +20,12 @@ constexpr double look_ahead_ticks = 32.0;
 // The distance by which a body strays from its path, or its corners by rotation, in mean half
 // edges.
 constexpr double wander_share = 0.1;
-// A box becomes no longer and no larger than this times a body's mean edge, or the cube of that,
-// by its path: along one axis far, across them less, where it would meet many. Unless the body is
-// faster:
+// The limit to which a path stretches a box: this times a body's mean edge in length, and the cube
+// of that in volume. So a box may be long along one axis but less across several, where it would
+// meet many others.
 constexpr double stretch_max = 9.0;
 constexpr double shorter = 0.75;
-// ... it always lasts for this many ticks.
+// The least number of ticks for which a box lasts, even if it then exceeds that limit.
 constexpr double stretch_ticks_min = 2.0;
 // The rotation within one tick from which a body counts as spinning.
 constexpr double turn_share = 0.25;
@@ -37,13 +37,13 @@ bool is_fixed(const BodyProperties& properties)
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// The factor by which a box grows for a path of that many of its edges.
+/// Returns the factor by which a path of this many edges makes a box grow.
 double stretch(const glm::dvec3& edges)
 {
     return (1.0 + edges.x) * (1.0 + edges.y) * (1.0 + edges.z);
 }
 
-/// Half the edges of the upright box around a turned one.
+/// Returns half the edges of the axis-aligned box around a rotated one.
 glm::dvec3 extent(const glm::dquat& q, const glm::dvec3& half)
 {
     const glm::dmat3 axes = glm::mat3_cast(q);
@@ -68,7 +68,7 @@ FatAabbs::Size FatAabbs::size_of(const BodyProperties& properties) const
                 properties.turning == Turning::locked ? 0.0 : largest(properties.inverse_inertia)};
 }
 
-/// Returns a box around the way of the centre within the look-ahead, whose length is limited.
+/// Returns a box around the path of the centre within the look-ahead, whose length is limited.
 Aabb FatAabbs::path(const Bodies& bodies, Slot slot, double stray) const
 {
     const glm::dvec3 position = bodies.position.at(slot);
@@ -127,8 +127,8 @@ Aabb FatAabbs::renew(const Bodies& bodies, Slot slot)
     return grown(region, margin);
 }
 
-/// A body of several parts that spins has its whole box for each; of another each part keeps the
-/// distance from the sides of the whole that it has now.
+/// For a body of several parts that spins, each part has the body's whole box. For another one,
+/// each part keeps its present distances from the sides of the whole box.
 Aabb FatAabbs::around(const Bodies& bodies, PartId part, const Aabb& whole) const
 {
     const Slot slot = bodies.slot_of[part];
@@ -170,7 +170,7 @@ void FatAabbs::update_slot(const Bodies& bodies, Slot slot)
 
 namespace {
 
-/// The lanes that a look at the bodies reads.
+/// The lanes that the check of the bodies reads.
 struct Lanes {
     const double *x, *y, *z;
     const double *vx, *vy, *vz;
@@ -180,14 +180,16 @@ struct Lanes {
     double tick;
 };
 
-/// The room that is left along an axis at the end of a step; < 0: the body has left its box.
+/// Returns the room that is left along an axis at the end of a step; < 0: the body has left its
+/// box.
 inline double rest_of(double room, double away, double velocity, double tick)
 {
     return room - std::abs(away) - std::abs(velocity) * tick;
 }
 
-/// Its highest bit says that the body has left: the signs of what is left of each limit, taken
-/// together as bits. Without compares GCC 12 and Clang 14 look at two bodies (or four) at once.
+/// Returns bits whose highest one is set if the body has left its box: the signs of the remaining
+/// room at each limit, combined with `or`. Without comparisons GCC 12 and Clang 14 check two bodies
+/// (or four) at once.
 inline std::uint64_t left_at(const Lanes& l, std::size_t n)
 {
     const double x = rest_of(l.bounds[3][n], l.x[n] - l.bounds[0][n], l.vx[n], l.tick);
@@ -206,7 +208,7 @@ inline std::uint64_t left_at(const Lanes& l, std::size_t n)
 constexpr unsigned sign = 63;
 constexpr std::size_t block = 16;
 
-/// True if any of a block has left.
+/// True if any body of a block has left its box.
 bool any_left(const Lanes& lanes, std::size_t first)
 {
     const Lanes own = lanes; // a local copy, which nothing else can change
@@ -217,7 +219,7 @@ bool any_left(const Lanes& lanes, std::size_t first)
 
 } // namespace
 
-/// Serves a few bodies, one after the other, without the lanes' addresses.
+/// Checks a few bodies, one after the other, without the lanes' addresses.
 bool FatAabbs::has_moved_out(const Bodies& bodies, Slot slot) const
 {
     const Bounds& bounds = bounds_[bodies.properties[slot].id];

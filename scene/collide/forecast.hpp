@@ -9,8 +9,8 @@
 
 namespace hapnet::scene {
 
-/// A lower bound of a gap from one moment on: after a time t there is room for at least room + sum
-/// |part| - t approach - sum |part + t speed| - t^2 bend / 2.
+/// A lower bound of a gap from one moment on. After a time t the room is at least room + sum |part|
+/// - t approach - sum |part + t speed| - t^2 bend / 2.
 struct Forecast {
     static constexpr std::size_t parts_max = 4;
     double room = 0.0;     // m: how much the gap may shrink
@@ -19,14 +19,14 @@ struct Forecast {
     std::array<double, parts_max> parts{};
     std::array<double, parts_max> speeds{};
 
-    /// Returns the time for which there surely is room, at most `most`.
+    /// Returns the time for which there is certainly room, at most `most`.
     [[nodiscard]] double time_left(double most) const
     {
         double size = 0.0;
         for (const double part : parts) size += std::abs(part);
-        // The room that is left is concave in time. It is used up once, and not later than its
-        // slope at the beginning says. Newton's method approaches that moment from above; there is
-        // room below the chord from the beginning.
+        // The remaining room is concave in time. So it is used up once, and not later than its
+        // slope at the beginning predicts. Newton's method approaches that moment from above. Below
+        // the chord from the beginning there certainly is room.
         const double speed = approach + slope(0.0);
         const double sum = speed + std::sqrt(speed * speed + 2.0 * bend * room);
         double until = sum > 0.0 ? std::min(most, 2.0 * room / sum) : most;
@@ -48,7 +48,7 @@ struct Forecast {
     }
 
 private:
-    /// The speed at which the parts grow.
+    /// Returns the speed at which the sum of the parts' sizes grows.
     [[nodiscard]] double slope(double time) const
     {
         double sum = 0.0;

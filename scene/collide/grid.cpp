@@ -12,8 +12,8 @@ namespace {
 // Bodies that lie farther out share the cells of the border, which is slow but still correct.
 constexpr double cells_max = 1 << 20;
 constexpr unsigned cell_bits = 21;
-// The edge of a cell, in edges of the median box, so that a box that reaches far ahead still lies
-// in few cells.
+// The edge of a cell, in edges of the median box. It is so long that a box that reaches far ahead
+// still lies in few cells.
 constexpr double cell_edges = 3.0;
 
 double largest_edge(const Aabb& box)
@@ -64,8 +64,8 @@ void Grid::move(BodyId id, const Aabb& box)
 
 std::int32_t Grid::cell_at(double coordinate) const
 {
-    // A floor in four instructions: without SSE4.1 std::floor takes twenty.
-    // In this order what is not a number has a cell, too.
+    // A floor in four instructions: without SSE4.1 std::floor takes twenty. In this order NaN has a
+    // cell, too.
     const double inside = std::min(cells_max - 1.0, coordinate * cells_per_m_);
     const double cell = std::max(-cells_max, inside);
     const auto towards_zero = static_cast<std::int32_t>(cell);
@@ -93,7 +93,7 @@ std::uint64_t Grid::key_of(const Cell& cell)
     return bits(cell.z) << 2 * cell_bits | bits(cell.y) << cell_bits | bits(cell.x);
 }
 
-/// Cells that lie side by side along x have buckets side by side.
+/// Returns the bucket of a cell. Cells that are neighbours along x have neighbouring buckets.
 std::size_t Grid::bucket_of(std::uint64_t key) const
 {
     constexpr std::uint64_t spread = 0x9E3779B97F4A7C15; // 2^64 / golden ratio (Knuth 6.4)

@@ -12,25 +12,26 @@
 
 namespace hapnet::scene {
 
-/// Finds overlaps through a uniform grid, its cells hashed into buckets. A body lies in every
-/// cell that its box reaches into; cells are three times the median box, and what reaches into too
-/// many of them lies in a list of its own. What it finds does not depend on the order in which
-/// bodies were put in; the order in which it finds it does.
+/// Finds overlaps through a uniform grid whose cells are hashed into buckets. A body lies in every
+/// cell that its box reaches into. Cells are three times the median box. A body whose box reaches
+/// into too many cells lies in a separate list. The set of overlaps does not depend on the order in
+/// which bodies were added, but the order of the visits does.
 class Grid {
 public:
-    /// The boxes of all bodies, by their ids.
+    /// `boxes` holds the boxes of all bodies, by their ids.
     explicit Grid(std::span<const Aabb> boxes);
 
     [[nodiscard]] const Aabb& box(BodyId id) const { return nodes_[id].box; }
     void move(BodyId id, const Aabb& box);
 
-    /// Calls visit(id), of the body itself too, for every body whose box overlaps a body's.
+    /// Calls visit(id) for every body whose box overlaps that of the body `id`, and for that body
+    /// itself.
     template <typename Visit>
     void for_overlapping(BodyId id, Visit visit) const
     {
         for_overlapping(nodes_[id].box, nodes_[id].cells, visit);
     }
-    /// Calls visit(id) once for every body whose box overlaps the given.
+    /// Calls visit(id) once for every body whose box overlaps `box`.
     template <typename Visit>
     void for_overlapping(const Aabb& box, Visit visit) const
     {

@@ -17,8 +17,9 @@ namespace {
 constexpr double flush_share = 1e-5;
 // The rounding of a box's place, as a share of a half edge.
 constexpr double place_rounding = 1e-12;
-// A sphere beside an edge may lean over it by any angle. A box that has tilted on a floor pushes
-// along its own face, which leans by as much.
+// The lean of normals that do not lead through a face. A sphere beside an edge may lean over it by
+// any angle. A box that has tilted on a floor pushes along its own face, which leans as much as the
+// box.
 constexpr double lean_of_round = 1e-9, lean_of_box = 1.0 / 64.0;
 
 double smallest(const glm::dvec3& half) { return std::min({half.x, half.y, half.z}); }
@@ -29,7 +30,7 @@ bool is_in(const OrientedBox& box, const glm::dvec3& point, double within)
     return std::max({beyond.x, beyond.y, beyond.z}) <= within;
 }
 
-/// The reach of a box along each axis of the world.
+/// Returns the half extents of a box along the axes of the world.
 glm::dvec3 reach_of(const OrientedBox& box)
 {
     return {half_projection(box, {1.0, 0.0, 0.0}), half_projection(box, {0.0, 1.0, 0.0}),
@@ -49,7 +50,7 @@ OrientedBox seen_from(const OrientedBox& frame, const OrientedBox& box)
 
 using Couple = std::pair<PartId, PartId>;
 
-/// Boxes of one solid that lie flush, each couple once: a sweep along x.
+/// Returns the pairs of boxes of one solid that lie flush, each pair once, by a sweep along x.
 std::vector<Couple> flush_couples(const Bodies& bodies)
 {
     struct Entry {
@@ -104,8 +105,9 @@ InternalFaces::InternalFaces(const Bodies& bodies)
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
-/// True if a neighbour lies on a face where it is nearest to a place. The probe is a hair outside
-/// the face and a hair within its border: what ends at the border covers nothing of it.
+/// True if a neighbour covers a face at its nearest point to `place`. The probe is slightly outside
+/// the face and slightly inside its border, so that a neighbour that ends at the border does not
+/// cover it.
 bool InternalFaces::is_covered(PartId part, const glm::dvec3& half, const glm::dvec3& place,
                                const BoxFace& face) const
 {
@@ -123,7 +125,7 @@ bool InternalFaces::leads_inside(PartId part, const glm::dvec3& half, const Loca
     for (const int axis : {0, 1, 2}) {
         if (std::abs(at.normal[axis]) <= lean) continue;
         const BoxFace face = face_at(static_cast<std::size_t>(axis), at.normal[axis]);
-        // A box that touches with its own face or edge pushes at a slant, away from other faces.
+        // A box that touches with its own face or edge pushes at an angle, away from other faces.
         constexpr double near = 1.0 / 16.0, straight = 1.0 - 1e-6;
         const double below = half[axis] - face.sign * at.point[axis];
         if (below > near * smallest(half) && std::abs(at.normal[axis]) < straight) continue;

@@ -12,8 +12,8 @@
 namespace hapnet::scene {
 
 /// The faces of boxes that lie inside a solid: between fixed bodies that lie flush, and between the
-/// parts of one body. Nothing touches such a face, so a floor of tiles feels like one slab. They
-/// are found when a scene is frozen.
+/// parts of one body. Nothing touches such a face, so a floor of tiles feels like one slab. The
+/// faces are found when a scene is frozen.
 class InternalFaces {
 public:
     InternalFaces() = default;
@@ -28,13 +28,14 @@ public:
     }
 
     /// True if the way out of a part, from a point of its surface along a unit normal, leads into a
-    /// neighbour. Both are in the part's own frame; normals that lean towards a face by less than
-    /// `lean` (a sine) do not lead through it.
+    /// neighbour. Point and normal are in the part's own frame. A normal that leans towards a face
+    /// by less than `lean` (a sine) does not lead through that face.
     [[nodiscard]] bool leads_inside(PartId part, const glm::dvec3& half, const LocalOverlap& at,
                                     double lean) const;
-    /// True if a neighbour with a lower id has the same point of the surface: then that one counts.
+    /// True if a neighbour with a lower id has the same point of the surface. Then only the
+    /// neighbour's counts.
     [[nodiscard]] bool is_shared(PartId part, const LocalOverlap& at) const;
-    /// The face nearest to a place in the part that is not internal there.
+    /// Returns the face nearest to a place in the part that is not internal there.
     [[nodiscard]] std::optional<BoxFace> nearest_outer_face(PartId part, const glm::dvec3& half,
                                                             const glm::dvec3& place) const;
 
@@ -43,13 +44,13 @@ public:
         PartId part = 0;
         const OrientedBox& box;
     };
-    /// Leaves the points of a contact, of `a` to `b`, at which neither face is internal.
+    /// Keeps only those points of a contact, from `a` to `b`, at which neither face is internal.
     void leave_outer(const Side& a, const Side& b, Manifold& manifold) const;
 
 private:
     struct Neighbour {
         PartId part = 0;
-        OrientedBox box; // in the frame of the part whose neighbour it is
+        OrientedBox box; // in the frame of the part that has this neighbour
     };
 
     void leave_outer_of(const Side& side, bool is_first, double lean, Manifold& manifold) const;

@@ -13,8 +13,8 @@
 
 namespace hapnet::scene {
 
-/// A box anywhere, its axes the columns of a rotation; or the sphere or the capsule that fits into
-/// it.
+/// A box anywhere, whose axes are the columns of a rotation; or the sphere or the capsule that fits
+/// into that box.
 struct OrientedBox {
     glm::dvec3 centre{0.0};
     glm::dmat3 axes{1.0};
@@ -33,8 +33,8 @@ struct ContactPoint {
 
 inline constexpr std::uint32_t manifold_points_max = 4;
 
-/// Where two bodies touch: up to four points with one normal. What lies beyond `count` is not even
-/// written: zeros would cost a third of a contact with a plane.
+/// The contact of two bodies: up to four points with one normal. Points beyond `count` are not even
+/// written, as zeros would cost a third of a contact with a plane.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct Manifold {
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, from the first body to the second
@@ -45,13 +45,13 @@ struct Manifold {
     [[nodiscard]] std::span<ContactPoint> touching() { return {points.data(), count}; }
 };
 
-/// The places of the bodies of a contact.
+/// The positions of the bodies of a contact.
 struct ContactPlaces {
     glm::dvec3 a{0.0};
     glm::dvec3 b{0.0};
 };
 
-/// True if some point is at most `within` above the surface.
+/// True if at least one point is at most `within` above the surface.
 [[nodiscard]] inline bool lies_on(const Manifold& manifold, double within)
 {
     for (const ContactPoint& point : manifold.touching()) {
@@ -60,13 +60,14 @@ struct ContactPlaces {
     return false;
 }
 
-/// A face, edge or corner of a box: one bit for each of the (one, two or three) faces that meet
-/// there. What two features have in common is their `and`; where both hold, their `or`.
+/// A face, edge or corner of a box: one bit for each of the one, two or three faces that meet
+/// there. The bitwise `and` of two features gives the faces that both lie on. The `or` gives the
+/// feature that lies on the faces of both.
 using FeatureBits = std::uint32_t;
 
 inline constexpr std::uint32_t feature_bits_count = 6;
 
-/// The face of an axis, 0..2, on its positive or negative side.
+/// Returns the bit of the face across an axis, 0..2, on its positive or negative side.
 [[nodiscard]] constexpr FeatureBits face_bit(int axis, bool is_positive)
 {
     return 1U << (2U * static_cast<unsigned>(axis) + (is_positive ? 1U : 0U));
@@ -91,7 +92,7 @@ inline constexpr std::uint32_t feature_bits_count = 6;
     return {shape.centre, shape.axes, shape.half - shape.rounding};
 }
 
-/// Half the length of a box's shadow along a direction, times the direction's length.
+/// Returns half the length of a box's shadow along a direction, times the direction's length.
 [[nodiscard]] inline double half_projection(const OrientedBox& box, const glm::dvec3& direction)
 {
     return box.half.x * std::abs(glm::dot(direction, box.axes[0])) +
@@ -99,27 +100,27 @@ inline constexpr std::uint32_t feature_bits_count = 6;
            box.half.z * std::abs(glm::dot(direction, box.axes[2]));
 }
 
-/// Half the length of any shape's shadow along a unit normal.
+/// Returns half the length of any shape's shadow along a unit normal.
 [[nodiscard]] inline double half_extent(const OrientedBox& shape, const glm::dvec3& normal)
 {
     if (!shape.is_round()) return half_projection(shape, normal);
     return half_projection(core_of(shape), normal) + shape.rounding;
 }
 
-/// The greatest distance of a shape's surface from its centre.
+/// Returns the greatest distance of a shape's surface from its centre.
 [[nodiscard]] inline double outer_radius(const glm::dvec3& half, double rounding)
 {
     const glm::dvec3 core = half - rounding;
     return std::sqrt(glm::dot(core, core)) + rounding;
 }
 
-/// The smallest half edge of a box.
+/// Returns the smallest half edge of a box.
 [[nodiscard]] inline double smallest_half(const OrientedBox& box)
 {
     return std::min({box.half.x, box.half.y, box.half.z});
 }
 
-/// The length that tolerances are relative to: the smallest half edge of both boxes.
+/// Returns the length that tolerances are relative to: the smallest half edge of both boxes.
 [[nodiscard]] inline double smallest_half(const OrientedBox& a, const OrientedBox& b)
 {
     return std::min({a.half.x, a.half.y, a.half.z, b.half.x, b.half.y, b.half.z});

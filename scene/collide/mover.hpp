@@ -14,10 +14,10 @@
 
 namespace hapnet::scene {
 
-/// The reach of a box that turns steadily, from its centre and over all its turns: its corners go
-/// round in circles about the axis of its spin. For a round body, the reach of its core.
+/// The reach of a box from its centre over all its turns, while it turns steadily. Its corners move
+/// in circles about the axis of its spin. For a round body, the reach of its core.
 struct Whirl {
-    // A turn, in radians, from which on it pays to ask how far a box reaches in all its turns.
+    // The turn, in radians, from which it pays to compute the reach of a box over all its turns.
     static constexpr double far_turn = 0.5;
 
     glm::dvec3 axis{0.0};
@@ -38,7 +38,7 @@ struct Whirl {
         }
         is_known = true;
         axis = box.spin / std::sqrt(square);
-        if (box.is_part) { // not around the axis: only its radius is known
+        if (box.is_part) { // the part is not around the axis, so only its radius is known
             along.fill(radius);
             across.fill(radius);
             widest = radius;
@@ -66,7 +66,7 @@ struct Whirl {
     }
 };
 
-/// The facts that a look needs about one of the two.
+/// The data of one of the two shapes that a step of the search needs.
 struct Mover {
     const SteadyBox& motion;
     bool turns = false;            // false for a sphere: it looks the same, however it turns
@@ -90,17 +90,17 @@ struct Mover {
             box.centre = motion.centre + time * motion.velocity;
         if (motion.is_part && !turns) box.centre += arm();
     }
-    /// The point that the box turns about.
+    /// Returns the point that the box turns about.
     [[nodiscard]] glm::dvec3 pivot() const
     {
         return motion.is_part ? box.centre - arm() : box.centre;
     }
-    /// The velocity of the box's centre.
+    /// Returns the velocity of the box's centre.
     [[nodiscard]] glm::dvec3 velocity() const
     {
         return motion.is_part ? motion.velocity + glm::cross(motion.spin, arm()) : motion.velocity;
     }
-    /// The greatest speed at which the centre of a part goes round, m/s.
+    /// Returns the greatest speed at which the centre of a part moves around the pivot, m/s.
     [[nodiscard]] double orbit_speed() const
     {
         return motion.is_part ? speed_of_turning * length(motion.arm) : 0.0;
@@ -112,7 +112,7 @@ struct Mover {
     }
 
 private:
-    /// Returns the vector from the pivot to the box's centre, in the world.
+    /// Returns the vector from the pivot to the box's centre, in the world's frame.
     [[nodiscard]] glm::dvec3 arm() const
     {
         return box.axes * (glm::transpose(motion.frame) * motion.arm);

@@ -9,14 +9,14 @@ namespace hapnet::scene {
 
 namespace {
 
-// Cubes of one size that are heaped up without order have about 20 others in reach of their fat
-// boxes: ten pairs each. Three times that, on average.
+// The average number of pairs per body. In a disordered heap of cubes of one size, about 20 cubes
+// are within the fat box of each: ten pairs per cube. The limit is three times that.
 constexpr std::uint64_t pairs_per_body_max = 32;
-// Planes that a body lies near at the same time: the corners of a room, and some more.
+// The number of planes near a body at the same time: those of the corner of a room, and some more.
 constexpr std::uint64_t planes_per_body_max = 8;
-// Ticks for which a hand that keeps its velocity stays in its box.
+// The number of ticks for which a hand that keeps its velocity stays in its box.
 constexpr double hand_look_ahead_ticks = 32.0;
-// ... which reaches no farther ahead than this times its radius, unless it is faster.
+// The box reaches no farther ahead than this times the hand's radius, unless the hand is faster.
 constexpr double hand_stretch_max = 16.0;
 
 PairSet::Room room_for_bodies(const Bodies& bodies)
@@ -47,7 +47,7 @@ std::vector<Aabb> first_boxes(FatAabbs& fat, const Bodies& bodies)
     return boxes;
 }
 
-/// The lowest corner of a box above a plane is not above it.
+/// True if the lowest corner of a box is not above a plane.
 bool reaches(const Aabb& box, const PlaneDescription& plane)
 {
     const glm::dvec3 half = 0.5 * box.size();
@@ -95,7 +95,7 @@ void PairFinder<broad_phase>::update(const Bodies& bodies)
     apply_changes();
 }
 
-/// Gives a body's parts new boxes, and what follows from them.
+/// Gives a body's parts new boxes, and updates their pairs.
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::renew(const Bodies& bodies, Slot slot)
 {
@@ -110,7 +110,7 @@ void PairFinder<broad_phase>::renew(const Bodies& bodies, Slot slot)
     bodies.for_parts(id, [&](PartId part) { move(part, fat_boxes_.around(bodies, part, whole)); });
 }
 
-/// Renews the pairs of a part after its box.
+/// Renews the pairs of a part after its box was renewed.
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::update_pairs(const Bodies& bodies, PartId id)
 {
@@ -152,7 +152,7 @@ void PairFinder<broad_phase>::update_plane_pairs(const Aabb& box, PartId id, boo
             if (!plane_pairs_.add(id, plane, is_awake)) has_left_out_ = true;
 }
 
-/// Adds a part to those in a hand's box, or takes it away.
+/// Adds a part to those in a hand's box, or removes it.
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::update_hand(Hand& hand, PartId id)
 {
@@ -170,7 +170,7 @@ void PairFinder<broad_phase>::update_hand(Hand& hand, PartId id)
     }
 }
 
-/// A box for a hand, around where it is going, and the parts in it.
+/// Makes a new box for a hand, around its predicted path, and finds the parts in it.
 template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::renew_hand(Hand& known, const HandPath& path)
 {
@@ -195,7 +195,7 @@ template <BroadPhase broad_phase>
 void PairFinder<broad_phase>::on_wake(const Bodies& bodies, BodyId body)
 {
     fat_boxes_.update_slot(bodies, bodies.slot_of[body]);
-    if (counts().pairs_left_out != 0) has_left_out_ = true; // perhaps of this body
+    if (counts().pairs_left_out != 0) has_left_out_ = true; // perhaps a pair of this body
     const auto activate = [this](PairIndex index) { pairs_.set_active(index, true); };
     bodies.for_parts(body, [&](PartId part) {
         pairs_.for_first(part, activate);

@@ -91,14 +91,16 @@ void PairSet::apply_changes()
     removed_.clear();
 }
 
-/// Returns the place of a pair in the list of the active ones, or where it would be.
+/// Returns the place of a pair in a sorted part of the list of active pairs, or the place where it
+/// would be.
 PairIndex* PairSet::find(PairIndex* first, PairIndex* last, PairIndex index) const
 {
     return std::lower_bound(first, last, index,
                             [this](PairIndex x, PairIndex y) { return keys_[x] < keys_[y]; });
 }
 
-/// Moves what lies between those that go, piece by piece: most of a long list stays as it is.
+/// Removes parked pairs from the list. It moves the stretches between them one by one: most of a
+/// long list stays as it is.
 void PairSet::drop_parked()
 {
     std::sort(parked_.begin(), parked_.end(),

@@ -23,23 +23,24 @@ struct ContactMemory {
     double normal_impulse_of_tick = 0.0; // N s, with bounces; valid if `count` > 0
 };
 
-/// True if the contact had a normal impulse last tick: then what sleeps on it wakes with it.
+/// True if the contact had a normal impulse last tick. Then a sleeping body of the contact wakes
+/// with the other one.
 [[nodiscard]] bool touches(const ContactMemory& memory);
 
-/// A pair of near things: parts of two bodies with `a` < `b`, or the part `a` and the plane `b`.
+/// A pair of near parts of two bodies with `a` < `b`, or of the part `a` and the plane `b`.
 struct Pair {
     PartId a = 0;
     std::uint32_t b = 0;
     ContactMemory memory;
 };
 
-/// A pair's place in its set, as long as it lives.
+/// A pair's place in its set. It stays valid as long as the pair exists.
 using PairIndex = std::uint32_t;
 
-/// Pairs with their memories. Those that a tick has to look at, the active ones, are listed in
-/// the order of their ids, whatever the order in which they came and went; the others are parked
-/// and cost nothing. Takes no memory after its construction: a pair beyond `pairs_max` is left
-/// out and counted; which one, depends on the past.
+/// Pairs with their memories. The active pairs, which a tick has to examine, are listed in the
+/// order of their ids, in whatever order they were added and removed. The other pairs are parked
+/// and cost nothing. The set takes no memory after its construction: a pair beyond `pairs_max` is
+/// left out and counted. Which pair is left out depends on the order of the additions.
 class PairSet {
 public:
     struct Room {
@@ -52,16 +53,17 @@ public:
     [[nodiscard]] Pair& operator[](PairIndex index) { return pairs_[index]; }
     [[nodiscard]] const Pair& operator[](PairIndex index) const { return pairs_[index]; }
 
-    /// The active pairs, sorted by (a, b). Valid until the next apply_changes().
+    /// Returns the active pairs, sorted by (a, b). The list is valid until the next
+    /// apply_changes().
     [[nodiscard]] std::span<const PairIndex> active() const { return active_.all(); }
-    /// The pairs that the last apply_changes() added, sorted by (a, b).
+    /// Returns the pairs that the last apply_changes() added, sorted by (a, b).
     [[nodiscard]] std::span<const PairIndex> added() const { return added_.all(); }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     [[nodiscard]] std::size_t size_max() const { return pairs_.size_max(); }
-    /// The number of times that add() found no room for a pair.
+    /// Returns the number of times that add() found no room for a pair.
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
-    /// Adds a pair that is not there; false when there is no room for it.
+    /// Adds a pair that is not in the set. Returns false when there is no room for it.
     bool add(std::uint32_t a, std::uint32_t b, bool is_active);
     void remove(PairIndex index);
     void set_active(PairIndex index, bool is_active);
@@ -69,10 +71,10 @@ public:
     {
         return (marks_[index] & active_mark) != 0;
     }
-    /// Brings the list of active pairs up to date. Costs nothing when nothing has changed.
+    /// Brings the list of active pairs up to date. It costs nothing when nothing has changed.
     void apply_changes();
 
-    /// Calls visit(index) for every pair whose `a` is the given; it may remove that pair.
+    /// Calls visit(index) for every pair whose first member is `a`. `visit` may remove that pair.
     template <typename Visit>
     void for_first(std::uint32_t a, Visit visit) const
     {
@@ -82,7 +84,7 @@ public:
             i = next;
         }
     }
-    /// Visits the pairs whose second member is `b`.
+    /// Calls visit(index) for every pair whose second member is `b`. `visit` may remove that pair.
     template <typename Visit>
     void for_second(std::uint32_t b, Visit visit) const
     {
@@ -104,8 +106,8 @@ private:
         PairIndex previous_second = none;
     };
 
-    // Marks: in the list of the active pairs (or in it after the next apply_changes()); listed in
-    // active_ or arriving_.
+    // Marks. active_mark: the pair is active, in the list now or after the next apply_changes().
+    // listed: the pair is in active_ or arriving_.
     static constexpr std::uint8_t active_mark = 1;
     static constexpr std::uint8_t listed = 2;
     static constexpr std::uint8_t parking = 4; // listed in parked_

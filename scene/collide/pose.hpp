@@ -12,12 +12,14 @@
 
 namespace hapnet::scene {
 
-// Squared sine of the angle below which two edges count as parallel: the faces tell enough then.
+// The squared sine of the angle below which two edges count as parallel. Then the axes of the faces
+// suffice.
 inline constexpr double parallel_sine2 = 1e-6;
 
-/// Two boxes at a moment, in the frame of the first, and how that changes. Along each of the 15
-/// axes of the separating axis theorem, which turn with the boxes that they belong to, the distance
-/// is |place| less the boxes' half shadows; both are sums of products of what stands here.
+/// Two boxes at a moment, in the frame of the first, and the rate at which they move. The 15 axes
+/// of the separating axis theorem turn with the boxes that they belong to. Along each of them the
+/// distance is |place| less the boxes' half shadows. Both are sums of products of this class's
+/// members.
 class Pose {
 public:
     Pose(const Mover& a, const Mover& b) : a_{a}, b_{b}
@@ -38,7 +40,7 @@ public:
         }
     }
 
-    /// An axis along which they are apart.
+    /// An axis along which the two boxes are apart.
     struct Open {
         double distance; // m
         double place;    // of the second box's centre along the axis, from the first's
@@ -58,7 +60,7 @@ public:
         }
     };
 
-    /// Finds the axes along which the two are farther apart than `more_than`.
+    /// Finds the axes along which the two boxes are farther apart than `more_than`.
     void find_open(double more_than, OpenAxes& open) const
     {
         const PerAxis half_a = per_axis(a_.box.half);
@@ -91,7 +93,7 @@ public:
                                    half_a[i2] * std::abs(turn_[i1][j]) -
                                    half_b[j1] * std::abs(turn_[i][j2]) -
                                    half_b[j2] * std::abs(turn_[i][j1]);
-                // The root is only taken where it matters.
+                // The root is taken only where it matters.
                 if (gap * std::abs(gap) <= more_than * std::abs(more_than) * square) continue;
                 const double length = std::sqrt(square);
                 open.consider({gap / length, place, length, 6 + 3 * i + j}, more_than);
@@ -99,8 +101,8 @@ public:
         }
     }
 
-    /// Forecasts the room along an axis beyond a gap, as long as the centres are no farther apart
-    /// than `apart`.
+    /// Forecasts the room along an axis beyond a gap. It is valid as long as the centres are no
+    /// farther apart than `apart`.
     [[nodiscard]] Forecast forecast(const Open& open, double gap, double apart) const
     {
         const double spin_a = a_.speed_of_turning;
@@ -115,7 +117,7 @@ public:
         found.room = open.length * (open.distance - gap);
         double moves = 0.0;
         double halves = 0.0;
-        double turns = both; // how fast the axis turns, at most
+        double turns = both; // an upper bound of how fast the axis turns
         const auto add = [&](std::size_t k, double half, double turn, double turning) {
             found.parts[k] = half * turn;
             found.speeds[k] = half * turning;
@@ -154,7 +156,7 @@ public:
         return found;
     }
 
-    /// The axis in the world, from the first to the second.
+    /// Returns the axis in the world's frame, from the first box to the second.
     [[nodiscard]] glm::dvec3 normal(const Open& open) const
     {
         const double side = open.place < 0.0 ? -1.0 : 1.0;

@@ -42,9 +42,10 @@ struct Meeting {
     glm::dvec3 normal{0.0}; // unit, from the line to the other core
     double place = 0.0;     // place on the line
     glm::dvec3 other{0.0};  // the nearest point of the other core
-    // The part of the line along which the other is as near, or would be if the line did not tilt.
+    // The part of the line along which the other core is as near, or would be if the line did not
+    // tilt.
     double from = 0.0, to = 0.0;
-    double tilt = 0.0; // by how much the line comes nearer to the other core along itself
+    double tilt = 0.0; // how much the line approaches the other core along its length
 
     void set_alongside(double first, double last)
     {
@@ -72,7 +73,7 @@ Meeting meet(const CoreLine& line, const CoreLine& other, double rounding)
     const double sine2 = 1.0 - cosine * cosine;
     const double reach = std::abs(cosine) * other.half;
     const bool is_along = line.half > 0.0 && other.half > 0.0 && sine2 <= along_sine * along_sine;
-    // The part of the line that is beside the other.
+    // The part of the line that is beside the other core.
     const double first = std::max(-line.half, on_line - reach);
     const double last = std::min(line.half, on_line + reach);
     constexpr double no_sine2 = 1e-20;
@@ -117,7 +118,8 @@ public:
                 glm::dot(box.axes[2], line.axis)}
     {}
 
-    /// Where `tilts` is set, a line that tilts by a hair off a face counts as lying along it.
+    /// Finds the meeting. With `tilts`, a line that is very slightly inclined to a face counts as
+    /// lying along it.
     [[nodiscard]] Meeting meet(double rounding, bool tilts) const
     {
         Meeting found;
@@ -128,7 +130,7 @@ public:
         found.distance = length(way);
         if (found.distance <= no_distance * rounding) return overlap();
         found.other = box_.centre + box_.axes * on_box;
-        // Such a line is nearest at its end, or at an edge that its foot has left by that hair.
+        // Such a line is nearest at its end, or at an edge that its foot has passed by very little.
         std::array<bool, 3> within{}, nearly{};
         glm::dvec3 across = way;
         for (const int i : {0, 1, 2}) {
@@ -151,16 +153,17 @@ public:
 private:
     [[nodiscard]] glm::dvec3 at(double place) const { return centre_ + place * axis_; }
 
-    /// Half of how fast the square of the distance grows along the line: it never falls.
+    /// Returns half of the rate at which the squared distance grows along the line. The rate never
+    /// falls.
     [[nodiscard]] double slope(double place) const
     {
         const glm::dvec3 there = at(place);
         return glm::dot(axis_, there - glm::clamp(there, -box_.half, box_.half));
     }
 
-    /// Returns the point on the line with the least distance, or the middle of those that are
-    /// equally near. The slope is straight between two bends, where the line comes into the slab of
-    /// an axis or leaves it.
+    /// Returns the point on the line with the least distance, or the middle of the points that are
+    /// equally near. The slope is linear between two bends, where the line enters or leaves the
+    /// slab of an axis.
     [[nodiscard]] double nearest() const
     {
         struct Bend {
@@ -194,8 +197,8 @@ private:
         return falls.place + share * (rises.place - falls.place);
     }
 
-    /// Sets the stretch of the line that is within the slabs of some of the box's axes: those along
-    /// which the line does not come nearer to a corner or an edge.
+    /// Sets the stretch of the line that is within the slabs of those axes of the box along which
+    /// the line does not approach a corner or an edge.
     void set_alongside(Meeting& found, const std::array<bool, 3>& within) const
     {
         found.from = found.to = found.place;
@@ -212,15 +215,15 @@ private:
             first = std::max(first, std::min(one, two));
             last = std::min(last, std::max(one, two));
         }
-        // Beside an edge only a parallel line counts: on another, points farther along are farther
-        // off.
+        // Beside an edge only a parallel line counts. On another line, points farther along are
+        // farther away.
         if (count == 1 && 1.0 - along2 > along_sine * along_sine) return;
         if (!(first < last)) return;
         found.set_alongside(first, last);
         found.tilt = glm::dot(found.normal, line_.axis);
     }
 
-    /// The shortest way out, of the six axes.
+    /// Returns the shortest way out along the six axes.
     [[nodiscard]] Meeting overlap() const
     {
         Meeting found;
@@ -267,7 +270,7 @@ private:
     glm::dvec3 centre_, axis_;
 };
 
-/// Finds where a round shape and any other meet.
+/// Finds where a round shape and another shape are nearest.
 Meeting meet(const OrientedBox& round, const OrientedBox& other, bool tilts = false)
 {
     const CoreLine line = line_of(round);

@@ -8,22 +8,24 @@
 
 #include <optional>
 
-// Collisions of two shapes of which at least one is round. A sphere is a point and a capsule a
+// Collisions of two shapes of which at least one is round. A sphere is a point and a capsule is a
 // line, each with a rounding. The contact of the surfaces follows from the place where the cores
 // are nearest.
 
 namespace hapnet::scene {
 
-/// Distances are between the surfaces; < 0: the shortest way out.
+/// Returns the distance between the surfaces. < 0: they overlap, and it is minus the shortest way
+/// out.
 [[nodiscard]] Gap round_gap(const OrientedBox& a, const OrientedBox& b);
 [[nodiscard]] Separation round_separation(const OrientedBox& first, const OrientedBox& second);
 [[nodiscard]] Separation round_separation(const glm::dvec3& point, const OrientedBox& shape);
 
-/// Finds where the two touch, or are up to `margin` apart: one point, or two where a capsule lies
-/// along a face, an edge or another capsule, up to about a degree off it.
+/// Finds where two shapes touch or are up to `margin` apart. There is one point, or two where a
+/// capsule lies along a face, an edge or another capsule, up to about a degree off it.
 [[nodiscard]] Manifold round_manifold(const OrientedBox& a, const OrientedBox& b, double margin);
 
-/// As time_of_impact(), by Newton's method: the distance of two shapes that do not turn is convex.
+/// As time_of_impact(), by Newton's method, which converges because the distance of two shapes that
+/// do not turn is convex.
 [[nodiscard]] std::optional<TimeOfImpact> round_time_of_impact(const OrientedBox& a,
                                                                const OrientedBox& b,
                                                                const glm::dvec3& relative_velocity,

@@ -26,7 +26,7 @@ double reach(const glm::dvec3& half)
 
 double along(const BoxFace& face, const glm::dvec3& place) { return face.sign * place[face.axis]; }
 
-/// True if a place is in the box or behind it, seen from in front of the face.
+/// True if a place is in the box or behind it, as seen from in front of the face.
 bool is_behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec3& place)
 {
     const int u = (face.axis + 1) % 3;
@@ -36,7 +36,8 @@ bool is_behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec3& pl
            std::abs(place[u]) <= half[u] && std::abs(place[v]) <= half[v];
 }
 
-/// The face at which a straight line from outside enters the box, however briefly.
+/// Returns the face at which a straight line from outside enters the box, however short its way
+/// inside is.
 std::optional<BoxFace> entry(const glm::dvec3& half, const glm::dvec3& from, const glm::dvec3& to)
 {
     std::optional<BoxFace> face;
@@ -77,7 +78,7 @@ LocalOverlap behind(const BoxFace& face, const glm::dvec3& half, const glm::dvec
     return overlap;
 }
 
-/// The side of a box on which a place is, along one axis: -1, 1, or 0 between its faces.
+/// Returns the side of a box on which a place is, along one axis: -1, 1, or 0 between its faces.
 int side_of(double half, double place)
 {
     return static_cast<int>(place > half) - static_cast<int>(place < -half);
@@ -134,7 +135,7 @@ std::optional<LocalOverlap> SphereBoxMemory::find(const glm::dvec3& half, const 
     const bool stays = side != 0 && side_of(edge[axis], there[axis]) == side;
     const bool is_through = entered_ && entered_->axis == axis && entered_->sign == -side;
     if (stays && !is_through) {
-        // It was and is in front of a face: it went in nowhere.
+        // The centre was and is in front of a face, so it entered through none.
         const double gap = side * here[axis] - edge[axis];
         if (gap >= radius) {
             forget();

@@ -21,12 +21,12 @@ struct BoxFace {
 
     friend bool operator==(const BoxFace&, const BoxFace&) = default;
 };
-/// The face across `axis` on the side of a place, given from the box's centre.
+/// Returns the face across `axis` on the side of a place, given from the box's centre.
 [[nodiscard]] inline BoxFace face_at(std::size_t axis, double place)
 {
     return {static_cast<std::uint8_t>(axis), static_cast<std::int8_t>(place < 0.0 ? -1 : 1)};
 }
-/// The face nearest to a place within the box.
+/// Returns the face nearest to a place within the box.
 [[nodiscard]] inline BoxFace nearest_face(const PerAxis& place, const PerAxis& half)
 {
     std::size_t nearest = 0;
@@ -51,34 +51,35 @@ struct LocalOverlap {
     bool is_amid_face = false;
 };
 
-/// Amid a face is what is no farther from its middle than this share of the half edges.
+/// A place is amid a face if it is no farther from the middle than this share of the half edges.
 inline constexpr double amid_face_share = 0.9;
 
-/// The limit of a sphere's way in one tick, and of its depth behind the face where it went in, in
-/// units of the box's longest half edge. A sphere beyond it was put there, and its past is
-/// forgotten. A cube of 4 cm: 8 cm, that is 80 m/s at 1 kHz.
+/// The limit of a sphere's path in one tick, and of its depth behind the face where it entered, in
+/// units of the box's longest half edge. A sphere beyond the limit counts as newly placed, and its
+/// past is forgotten. For a cube of 4 cm the limit is 8 cm, that is 80 m/s at 1 kHz.
 inline constexpr double sphere_reach_of_half = 4.0;
 
-/// Finds how a sphere overlaps a box, and remembers the face through which its centre went in, so
-/// that a deep push does not jump to another face, and a sphere that is through the box, pushed
-/// slowly or within one tick, is still found in front of the face where it entered. It is let go
-/// when its centre comes out in front of that face or leaves the space behind it to the side.
-/// From outside the nearest point of the box decides: the depth is continuous over edges and
-/// corners.
+/// Finds how a sphere overlaps a box, and remembers the face through which the sphere's centre
+/// entered. So a deep push does not jump to another face. A sphere that has passed through the box,
+/// pushed slowly or within one tick, is still found in front of the face where it entered. The
+/// memory ends when the centre leaves through that face or leaves the space behind it sideways. For
+/// a centre outside the box the nearest point of the box decides, so the depth is continuous over
+/// edges and corners.
 class SphereBoxMemory {
 public:
-    /// For a sphere without a known earlier place. nullopt: they do not overlap.
+    /// Finds the overlap of a sphere without a known earlier place. nullopt: they do not overlap.
     [[nodiscard]] std::optional<SphereOverlap> find(const OrientedBox& box,
                                                     const glm::dvec3& centre, double radius);
 
-    /// For a sphere whose centre was at `before` a tick ago, in the box's frame of that time; see
-    /// to_local(). The entered face is the one that the straight line from there to the centre
-    /// meets first. nullopt: they do not overlap.
+    /// Finds the overlap of a sphere whose centre was at `before` a tick ago, in the box's frame of
+    /// that time; see to_local(). The entered face is the first one that the straight line from
+    /// `before` to the centre meets. nullopt: they do not overlap.
     [[nodiscard]] std::optional<SphereOverlap>
     find(const OrientedBox& box, const glm::dvec3& centre, double radius, const glm::dvec3& before);
 
     /// As find(), in the frame of a box with these half edges. `before` is null when it is not
-    /// known. A sphere in front of one of the faces, as most are, or far away costs a few compares.
+    /// known. A sphere that is far away or in front of one of the faces, as most are, costs a few
+    /// comparisons.
     [[nodiscard]] std::optional<LocalOverlap> find(const glm::dvec3& half, const glm::dvec3& place,
                                                    double radius, const glm::dvec3* before);
 
@@ -87,7 +88,7 @@ public:
     [[nodiscard]] LocalOverlap enter(BoxFace face, const glm::dvec3& half, const glm::dvec3& place,
                                      double radius);
 
-    /// The face through which the centre went in, or would on its shortest path.
+    /// Returns the face through which the centre entered, or would enter on its shortest path.
     [[nodiscard]] std::optional<BoxFace> entered() const { return entered_; }
 
     friend bool operator==(const SphereBoxMemory&, const SphereBoxMemory&) = default;
@@ -99,7 +100,7 @@ private:
     std::optional<BoxFace> entered_;
 };
 
-/// A point in a box's own frame.
+/// Returns a point of the world in a box's own frame.
 [[nodiscard]] inline glm::dvec3 to_local(const OrientedBox& box, const glm::dvec3& point)
 {
     const glm::dvec3 offset = point - box.centre;
@@ -107,7 +108,7 @@ private:
             glm::dot(box.axes[2], offset)};
 }
 
-/// The distance from a point to the surface of a box or a round body; 0 inside.
+/// Returns the distance from a point to the surface of a box or a round body; 0 inside.
 [[nodiscard]] double distance(const OrientedBox& box, const glm::dvec3& point);
 
 } // namespace hapnet::scene

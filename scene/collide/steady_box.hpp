@@ -17,21 +17,21 @@ struct SteadyBox {
     glm::dvec3 half{0.02};
     double radius = 0.0;   // greatest distance of the surface from `centre`
     double rounding = 0.0; // see OrientedBox
-    // A part of a body of several, which goes round the centre: where in the body's frame it is.
-    // Then `radius` is how far it reaches from there.
+    // A part of a body of several parts, which moves around the body's centre: its place in the
+    // body's frame. Then `radius` is measured from that place.
     bool is_part = false;
     glm::dvec3 arm{0.0};
     glm::dmat3 frame{1.0};
 
     [[nodiscard]] bool is_round() const { return rounding > 0.0; }
-    /// The half edges and the radius of a round body's core, or of the box itself.
+    /// Returns the half edges and the radius of a round body's core, or of the box itself.
     [[nodiscard]] glm::dvec3 core_half() const { return half - rounding; }
     [[nodiscard]] double core_radius() const { return radius - rounding; }
 
     [[nodiscard]] OrientedBox at(double time) const;
     [[nodiscard]] glm::dquat orientation_at(double time) const;
-    /// Keeps velocity and spin, and changes the start so that at `time` the box is at this place
-    /// and has this orientation.
+    /// Keeps the velocity and the spin, and changes the start so that at `time` the box is at
+    /// `place` and has the orientation `turned`.
     void put(const glm::dvec3& place, const glm::dquat& turned, double time);
 };
 

@@ -16,11 +16,12 @@ namespace {
 
 // Pairs that come nearer than this share of the smallest half edge within a tick are examined.
 constexpr double look_ahead = 0.01;
-// A body that goes farther than this share of it in a tick could pass through another.
+// A body that moves farther than this share of the smallest half edge in a tick could pass through
+// another.
 constexpr double far_share = 0.5;
 
-/// True if a box has turned by no more than rounding: a resting body that is pushed turns to and
-/// fro by less, and its contacts would have to be found again in every tick.
+/// True if a box has turned by no more than rounding. A resting body that is pushed turns to and
+/// fro by less. Otherwise its contacts would have to be found again in every tick.
 bool is_as_good_as(const glm::dquat& kept, const glm::dquat& now)
 {
     constexpr double rounding = 1e-13; // half of the turn
@@ -52,7 +53,7 @@ SweptContact collide_swept(const BoxSweep& a, const BoxSweep& b, double tick, Bo
     const double margin = a.reach + b.reach;
     const double near = far_share * std::min(shortest_half(a.box.half), shortest_half(b.box.half));
     const glm::dvec3 velocity = b.velocity - a.velocity;
-    // The spheres around them tell most pairs that fly side by side.
+    // The bounding spheres suffice for most pairs that fly side by side.
     const glm::dvec3 apart = b.box.centre - a.box.centre;
     const double nearest =
         a.radius + b.radius + std::max(std::min(margin, near), tick * length(velocity));

@@ -17,10 +17,10 @@ namespace {
 
 // Squared sine of the angle below which a cross product is only rounding errors.
 constexpr double parallel_edges = 1e-16;
-// Rounding errors of a shadow's length, relative to it: shadows that overlap by less touch.
+// The rounding error of a shadow's length, relative to it. Shadows that overlap by less only touch.
 constexpr double rounding = 1e-13;
 
-/// The time in which the shadows overlap along all axes so far: from `enter` to `leave`.
+/// The time in which the shadows overlap along all axes tested so far: from `enter` to `leave`.
 class Sweep {
 public:
     Sweep(const OrientedBox& a, const OrientedBox& b, const glm::dvec3& relative_velocity)
@@ -31,7 +31,7 @@ public:
           speed_error_{rounding * std::sqrt(glm::dot(relative_velocity, relative_velocity))}
     {}
 
-    /// One more axis, of any length; false when the boxes do not meet because of it.
+    /// Tests one more axis, of any length. Returns false when the boxes do not meet because of it.
     bool consider(const glm::dvec3& direction)
     {
         const double reach = half_projection(a_, direction) + half_projection(b_, direction);
@@ -63,8 +63,9 @@ public:
     }
 
 private:
-    /// A later axis decides the time when it is later at all, but the normal only when it is later
-    /// by more than rounding: of axes that meet together the first stands.
+    /// Sets the time of entry along an axis. A later axis always sets the time, but it sets the
+    /// normal only if it is later by more than rounding. Of axes that meet at the same time the
+    /// first one keeps the normal.
     void enter(double time, double error, const glm::dvec3& direction)
     {
         if (!is_touching_ || time > enter_ + error) normal_ = direction;

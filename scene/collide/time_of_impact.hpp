@@ -15,13 +15,15 @@ struct TimeOfImpact {
     glm::dvec3 normal{0.0}; // unit, from the first to the second
 };
 
-/// The first touch of `b` moving at `relative_velocity` seen from `a`, within [0, time_max];
-/// nullopt when there is none, or when they overlap already. Exact for boxes that do not rotate.
+/// Returns the first touch of `a` and `b` within [0, time_max], where `b` moves at
+/// `relative_velocity` as seen from `a`. Returns nullopt when there is none, or when they overlap
+/// already. Exact for boxes that do not rotate.
 [[nodiscard]] std::optional<TimeOfImpact> time_of_impact(const OrientedBox& a, const OrientedBox& b,
                                                          const glm::dvec3& relative_velocity,
                                                          double time_max);
 
-/// The distance between two surfaces along the normal that keeps them apart most; < 0: overlap.
+/// The distance between two surfaces along the normal along which they are farthest apart; < 0:
+/// overlap.
 struct Gap {
     double distance = 0.0;
     glm::dvec3 normal{0.0, 1.0, 0.0}; // unit, from the first to the second

@@ -16,8 +16,8 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Returns how far the body and the hands may come towards each other in the tick, m: twice the sum
-/// of the way of their present motion and of the depths to which springs are pressed.
+/// Returns how far the body and the hands may approach each other in the tick, m. It is twice the
+/// sum of the distance of their present motion and of the depths to which springs are pressed.
 double reach(const MovingBody& body, const BodyDynamics& dynamics,
              std::span<const HandSpring> springs, double tick)
 {
@@ -34,8 +34,8 @@ double reach(const MovingBody& body, const BodyDynamics& dynamics,
     return 2.0 * (tick * (speed + turning * arm + tick * length(dynamics.acceleration)) + stored);
 }
 
-/// The springs that may act in the tick. `is_closed` tells if they are few and have a closed form;
-/// `which` and `count` are complete only then.
+/// The springs that may act in the tick. `is_closed` is true if they are few and have a closed
+/// form; `which` and `count` are complete only then.
 struct Chosen {
     std::array<std::size_t, 2> which{};
     std::size_t count = 0;
@@ -85,7 +85,7 @@ void advance_by_phases(const Task& task, const Chosen& chosen, double tick)
     for (std::size_t i = 0; i < count; ++i) task.work[chosen.which[i]].impulse += rest[i].impulse;
 }
 
-/// True if the body has turned so little that the directions of springs are the same, except for
+/// True if the body has turned so little that the directions of springs are unchanged up to
 /// rounding.
 bool has_hardly_turned(const MovingBody& start, const MovingBody& end)
 {
@@ -108,8 +108,8 @@ HandEnergy energy_of_pressed(std::span<const HandSpring> springs,
     return energy;
 }
 
-/// True if the springs hardly change the body's velocity within a tick: then drag may be a constant
-/// force.
+/// True if the springs hardly change the body's velocity within a tick. Then drag may count as a
+/// constant force.
 bool are_soft(const BodyDynamics& dynamics, std::span<const HandSpring> springs, double tick)
 {
     const glm::dvec3& light = dynamics.inverse_mass;
@@ -124,7 +124,7 @@ bool are_soft(const BodyDynamics& dynamics, std::span<const HandSpring> springs,
     return most <= soft && dynamics.drag * tick < soft;
 }
 
-/// Whatever the springs do, without drag.
+/// Advances through all beginnings and ends of contacts, without drag.
 void advance_by_events(const Task& task, double tick)
 {
     for (SpringImpulse& each : task.work) each = {};
@@ -156,7 +156,7 @@ void advance_with_drag(const Task& task, double tick)
         rows += MidpointRule{body, dynamics, springs, work}.advance(tick);
         return;
     }
-    // Drag as a constant force: of the mean velocity, which takes two passes.
+    // Drag counts as a constant force that follows from the mean velocity. That takes two passes.
     BodyDynamics held = dynamics;
     held.drag = 0.0;
     const MovingBody start = body;
@@ -170,7 +170,7 @@ void advance_with_drag(const Task& task, double tick)
     }
 }
 
-/// The part of advance() that most ticks do not need.
+/// Does the part of advance() that most ticks do not need.
 HandEnergy advance_otherwise(const Task& task, const MovingBody& start, bool is_done, double tick)
 {
     const auto& [body, dynamics, springs, work, modes, rows] = task;
@@ -205,7 +205,7 @@ HandEnergy advance(MovingBody& body, const BodyDynamics& dynamics,
     const HandEnergy energy = advance_otherwise(
         {body, dynamics, springs, work.first(springs.size()), modes, rows}, start, is_done, tick);
     // Stiff hands leave the velocity that follows from their impulses, to the last digit of such
-    // large ones: they may cancel each other, or bring the body to rest.
+    // large numbers: the impulses may cancel each other, or bring the body to rest.
     const bool is_stiff = springs.size() > 1 || !are_soft(dynamics, springs, tick);
     if (is_stiff && dynamics.drag == 0.0) {
         glm::dvec3 impulse{0.0};

@@ -18,19 +18,19 @@ namespace hapnet::scene {
 
 namespace {
 
-// The most that a normal may rotate in half a tick: then its mean is right to 1e-5.
+// The greatest rotation of a normal in half a tick at which its mean is right to 1e-5.
 constexpr double half_rotation_max = 0.01;
 // A rotation below this is rounding.
 constexpr double no_rotation = 1e-13;
 // A rotation below this keeps all directions, to rounding.
 constexpr double negligible_rotation = 1e-10;
-// A rotation below this changes an orientation by less than has_hardly_turned() takes for one.
+// A rotation below this changes an orientation by less than the limit of has_hardly_turned().
 constexpr double hardly_any_rotation = 5e-11;
 
 glm::dvec3 diagonal_of(const glm::dmat3& m) { return {m[0].x, m[1].y, m[2].z}; }
 
-/// What acts on the body, and what the springs that press do, both at once; where there is one,
-/// the other pushes along nothing. Everything is set before it is read.
+/// The forces on the body, and the effects of the two pressing springs at once. If there is one
+/// spring, the other pushes along a zero vector. Everything is set before it is read.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 class ConstantContact {
 public:
@@ -43,8 +43,8 @@ public:
           ease_{diagonal_of(dynamics.inverse_inertia)}
     {}
 
-    /// Moves and turns the body. False, and it has not changed: something begins or ends, or it
-    /// turns by more than `rotation_max`.
+    /// Moves and turns the body. Returns false and leaves the body as it was when a contact begins
+    /// or ends, or when the body turns by more than `rotation_max`.
     bool advance(PressedModes& modes, double rotation_max)
     {
         if (!set_geometry_halfway()) return false;
@@ -54,7 +54,7 @@ public:
         finish();
         return true;
     }
-    /// The impulse on the hands.
+    /// Returns the impulses on the hands.
     [[nodiscard]] const TwoVectors& impulse() const { return push_; }
     /// True if the body turns so little that the directions stay, except for rounding.
     [[nodiscard]] bool turns_negligibly() const
@@ -86,13 +86,13 @@ private:
     Two acceleration_;     // of the depths, without the springs' forces
     Two impulse_, moment_; // impulses of the forces, N s, and their integrals, N s^2
     glm::dvec3 moved_, angle_;
-    TwoVectors gone_; // ways of the hands relative to the body's centre
+    TwoVectors gone_; // paths of the hands relative to the body's centre
     TwoVectors push_;
     glm::dquat turn_;
 };
 
-/// Turns what is held to where it is halfway at the speeds of the start: what the forces change
-/// until then is of second order, and where they are in balance nothing.
+/// Turns the held vectors to their orientation halfway at the speeds of the start. The forces'
+/// effect until then is of second order, and zero where they are in balance.
 bool ConstantContact::set_geometry_halfway()
 {
     const double half = 0.5 * tick_;
@@ -128,8 +128,8 @@ void ConstantContact::set_couplings()
     mutual_ = glm::dot(first(normal_), second(pushed)) + glm::dot(first(lever_), second(turned));
 }
 
-/// Returns false when a force may end or reach its greatest value, or when the tick is long for the
-/// springs.
+/// Returns false when a force may end or reach its greatest value, or when the tick is too long for
+/// such stiff springs.
 bool ConstantContact::integrate_contacts(PressedModes& modes)
 {
     const Two stiffness = springs_.stiffness, damping = springs_.damping;
@@ -168,7 +168,7 @@ bool ConstantContact::stays_amid()
     const glm::dvec3 swept =
         t * (body_.angular_momentum + (0.5 * t) * dynamics_.torque) - sum(moment_ * lever_);
     angle_ = ease_ * swept;
-    // A hand amid a face is at least a tenth of a half edge away from leaving it.
+    // The hand is amid a face: at least a tenth of a half edge away from leaving it.
     const glm::dvec3& size = dynamics_.half;
     const double room = 0.1 * std::min(size.x, std::min(size.y, size.z));
     const double corner = (size.x + size.y + size.z) * sum_of_sizes(angle_);
@@ -234,7 +234,7 @@ bool advance_in_constant_contact(MovingBody& body, const BodyDynamics& dynamics,
     ConstantContact contact{body, dynamics, pressing, tick};
     if (!contact.advance(modes, std::numeric_limits<double>::infinity())) return false;
     const TwoVectors& push = contact.impulse();
-    work[0].impulse = -first(push); // `advance` clears what is refused
+    work[0].impulse = -first(push); // `advance` clears the work if the tick is refused
     if (pressing.are_two) work[1].impulse = -second(push);
     if (!contact.turns_negligibly()) contact.correct(springs, work);
     return true;

@@ -24,7 +24,8 @@ TrajectoryIntegrals integrate_along(const Trajectory& trajectory, double time)
     const Oscillator& oscillator = trajectory.propagator->oscillator;
     const double t2 = time * time;
     // The integrals follow from the equation of motion. Where the spring hardly acts, that would be
-    // the difference of almost equal numbers, and four terms of Taylor's series are exact to 1e-12.
+    // the difference of almost equal numbers. There four terms of Taylor's series are exact to
+    // 1e-12.
     constexpr double hardly = 1e-3;
     if (oscillator.stiffness * t2 > hardly || oscillator.damping * time > hardly * 100.0) {
         if (oscillator.stiffness > 0.0) {
@@ -63,7 +64,7 @@ SpringPhase SpringContact::phase_due() const
     return unlimited_force() < force_max ? SpringPhase::pressing : SpringPhase::limited;
 }
 
-// The trajectories are set for the phases that there are.
+// Only the trajectories of the present phases are set.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 template <std::size_t count>
 ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
@@ -71,7 +72,7 @@ ContactModes<count>::ContactModes(std::array<SpringContact, count>& contacts,
     : contacts_{contacts}, coupling_{coupling}, time_{time}
 {
     // A damper that begins to act, or a normal that turns, changes the force at once. Then the
-    // phase that was foreseen is over before it begins.
+    // expected phase is over before it begins.
     for (SpringContact& contact : contacts_) {
         constexpr double rounding = 1e-9;
         const double unlimited_force = contact.unlimited_force();
@@ -134,8 +135,8 @@ void ContactModes<count>::solve_one(std::size_t pressing)
     lag_ = contact.damping / contact.stiffness;
     is_solved_ = contact.stiffness > 0.0;
     if constexpr (count == 2) {
-        // The other one's depth follows the oscillation by how much they are coupled, and is
-        // carried by a parabola besides.
+        // The depth of the other spring follows the oscillation in proportion to their coupling,
+        // plus a parabola.
         const std::size_t idle = 1 - pressing;
         const SpringContact& other = contacts_[idle];
         const double follows = own > 0.0 ? coupling_.mutual / own : 0.0;
@@ -159,7 +160,7 @@ void ContactModes<count>::solve_both()
                          1e-14 * contacts_[1].damping;
         if (!is_solved_) return;
 
-        // The coupling is symmetric in depths times the roots of the stiffnesses: one rotation
+        // The coupling is symmetric in depths times the roots of the stiffnesses. One rotation
         // (after Jacobi) makes it diagonal.
         const double a = root[0] * root[0] * coupling_.own[0];
         const double b = root[1] * root[1] * coupling_.own[1];

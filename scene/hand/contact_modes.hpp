@@ -9,24 +9,24 @@
 
 namespace hapnet::scene {
 
-/// One spring on a body along its held normal. While it is slack it counts as apart: it pushes
-/// again when the pull has gone, wherever its depth is.
+/// One spring on a body along its held normal. A slack spring does not push. It pushes again when
+/// it would no longer have to pull, at whatever depth.
 struct SpringContact {
     double stiffness = 0.0;
     double damping = 0.0;
     double force_max = 0.0;
     double depth = 0.0;        // > 0: overlap
-    double closing = 0.0;      // by how much the depth grows per second
+    double closing = 0.0;      // rate at which the depth grows
     double acceleration = 0.0; // of the depth, without the springs' forces
     SpringPhase phase = SpringPhase::apart;
 
     [[nodiscard]] double unlimited_force() const { return stiffness * depth + damping * closing; }
     [[nodiscard]] double force() const;
-    /// The phase that depth and closing speed call for.
+    /// Returns the phase that follows from the depth and the closing speed.
     [[nodiscard]] SpringPhase phase_due() const;
 };
 
-/// The response of the depths of up to two springs to their forces: 1/kg.
+/// The response of the depths of up to two springs to the springs' forces: 1/kg.
 struct Coupling {
     std::array<double, 2> own{};
     double mutual = 0.0;
@@ -40,14 +40,14 @@ struct PhaseImpulses {
     std::array<double, count> moment{};  // the integral of the impulse, N s^2
 };
 
-/// One or two springs on one body with held normals and arms: everything until one of them begins
-/// or ceases to act, or reaches its greatest force, is in closed form. One spring is an oscillator
-/// with the mass that the body has for it; two are two oscillators (the modes of their stiffness),
-/// provided that damping over stiffness is the same for both.
+/// One or two springs on one body with held normals and arms. The motion is in closed form until
+/// one of them begins or ceases to act, or reaches its greatest force. One spring is an oscillator
+/// with the body's effective mass along its normal. Two springs are two oscillators (the modes of
+/// their stiffness), provided that the ratio of damping to stiffness is the same for both.
 template <std::size_t count>
 class ContactModes {
 public:
-    /// `time` is how long at most.
+    /// `time` is the longest time that advance() may simulate.
     ContactModes(std::array<SpringContact, count>& contacts, const Coupling& coupling, double time);
     ContactModes(const ContactModes&) = delete; // the trajectories point to the propagators
     ContactModes& operator=(const ContactModes&) = delete;
@@ -55,8 +55,8 @@ public:
 
     /// True if there is a closed form.
     [[nodiscard]] bool is_solved() const { return is_solved_; }
-    /// Goes on to the first moment at which a phase ends, or for the whole time: depths, speeds and
-    /// phases, too.
+    /// Advances depths, speeds and phases to the first moment at which a phase ends, or by the
+    /// whole time.
     [[nodiscard]] PhaseImpulses<count> advance();
 
 private:
@@ -72,7 +72,7 @@ private:
     void solve_both();
     [[nodiscard]] WatchedQuantity watch(std::size_t i, double level,
                                         const std::array<double, 2>& weights);
-    /// True if a bound of how fast the force changes rules out that the phase ends.
+    /// True if a bound of the rate at which the force changes rules out that the phase ends.
     [[nodiscard]] bool keeps_phase(std::size_t i) const;
     void find_end(End& end, std::size_t i);
     void add_work(PhaseImpulses<count>& impulses) const;

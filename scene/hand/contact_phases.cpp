@@ -13,10 +13,10 @@ namespace hapnet::scene {
 
 namespace {
 
-constexpr int phases_max = 64; // most phases in a tick
-// Least share of a tick that is cut off only because something turns.
+constexpr int phases_max = 64; // greatest number of phases in a tick
+// The least share of a tick that is split off only because a direction turns.
 constexpr double part_min = 1.0 / 32.0;
-// The most that a normal may rotate in half an interval: then its mean is right to 1e-5.
+// The greatest rotation of a normal in half an interval at which its mean is right to 1e-5.
 constexpr double normal_rotation_max = 0.01;
 
 glm::dmat3 rotated_inertia(const glm::dmat3& inverse_inertia, const glm::dvec3& angle)
@@ -107,8 +107,8 @@ ContactPhases<count>::geometry_halfway(double time) const
         ContactGeometry& geometry = held.contacts[i];
         const glm::dvec3 hand = hand_positions_[i] + half * springs_[i]->velocity - moved;
         if (is_amid_face_[i] && turns_little) {
-            // The face's normal turns with the body; by so little that two terms of the rotation
-            // suffice for what is held.
+            // The face's normal turns with the body, but so little that two terms of the rotation
+            // suffice for the held geometry.
             const glm::dvec3 once = glm::cross(angle, geometries_[i].normal);
             geometry.normal = geometries_[i].normal + once + 0.5 * glm::cross(angle, once);
             geometry.lever = glm::cross(hand, geometry.normal);
@@ -235,8 +235,8 @@ void ContactPhases<count>::apply(const HeldGeometry& held, const PhaseImpulses<c
 template <std::size_t count>
 void ContactPhases<count>::begin_contact(std::size_t i)
 {
-    // A spring that was apart stores nothing: it does not begin a little before its depth is
-    // reached, and when it begins a little late, that is settled in the end.
+    // A spring that was apart stores nothing. It must not begin before its depth is reached. If it
+    // begins a little late, correct_energy() compensates for that in the end.
     SpringContact& contact = contacts_[i];
     contact.depth = geometries_[i].depth;
     if (contact.phase != SpringPhase::pressing) return;
@@ -262,7 +262,7 @@ std::array<HandSpring, count> ContactPhases<count>::current() const
 template <std::size_t count>
 void ContactPhases<count>::correct_energies()
 {
-    // Rounding alone is nothing to correct: a symmetric squeeze shall stay where it is.
+    // Pure rounding is not corrected: a symmetric squeeze must stay in its place.
     constexpr double unturned = 1e-10;
     if (largest_normal_change_ < unturned * unturned) return;
     for (std::size_t i = 0; i < count; ++i) {

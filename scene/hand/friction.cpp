@@ -15,7 +15,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// The first time within [0, most] at which |start + rate t| reaches `limit`; else `most`.
+/// Returns the first time within [0, most] at which |start + rate t| reaches `limit`; else `most`.
 double time_within(const glm::dvec3& start, const glm::dvec3& rate, double limit, double most)
 {
     constexpr double rounding = 1e-12;
@@ -75,7 +75,7 @@ glm::dvec3 rub_evenly(const Rub& rub, FrictionSpring& friction)
     const double most = friction.limits.sliding * push;
     const glm::dvec3 end = cut(rub.stiffness * wanted, most);
     friction.slid = rub.stiffness > 0.0 ? wanted - end / rub.stiffness : wanted;
-    // The direction goes from that of breaking loose to that of the pull in the end.
+    // The direction goes from that of the pull at the slip to that of the pull at the end.
     const glm::dvec3 broke = start + sticks * rate;
     const glm::dvec3 drawn = rub.stiffness > 0.0 ? end : rub.damping * rub.velocity;
     const glm::dvec3 mean = cut(broke, most) + cut(drawn, most);

@@ -24,7 +24,7 @@ struct Mean {
     double slope = 0.0; // derivative of the force by the mean closing speed
 };
 
-/// The energy of a unilateral spring over its stiffness and its force, with `bend` the depth from
+/// The energy of a unilateral spring over its stiffness, and its force. `bend` is the depth beyond
 /// which its force no longer grows.
 struct Elastic {
     double energy = 0.0;
@@ -37,7 +37,8 @@ Elastic elastic(double depth, double bend)
     return {bend * (depth - 0.5 * bend), bend};
 }
 
-/// The mean force of a unilateral spring whose depth grows evenly from `depth` at `closing`.
+/// Returns the mean force of a unilateral spring whose depth grows evenly from `depth` at the rate
+/// `closing`.
 Mean mean_force(const HandSpring& spring, double depth, double closing, double substep)
 {
     const double bend = spring.stiffness > 0.0 ? spring.force_max / spring.stiffness
@@ -57,7 +58,7 @@ Mean mean_force(const HandSpring& spring, double depth, double closing, double s
         mean.force = spring.stiffness * gradient;
         mean.slope = spring.stiffness * (then.force - gradient) / way * substep;
     }
-    // The damper acts while they overlap.
+    // The damper acts while body and hand overlap.
     const double from = std::max(depth, 0.0);
     const double to = std::max(after, 0.0);
     mean.force += spring.damping * (to - from) / substep;
@@ -233,7 +234,7 @@ typename MidpointRule<rubs>::Six MidpointRule<rubs>::update_forces(const Six& ve
     return missed;
 }
 
-/// The three rows of a spring that holds pull no more together than it can.
+/// Limits the three rows of a spring that holds to its greatest force together.
 template <bool rubs>
 void MidpointRule<rubs>::limit_grip_force(std::size_t first)
 {
@@ -261,7 +262,7 @@ bool MidpointRule<rubs>::is_rough(std::size_t spring) const
         return !spring_[spring].form->holds && pull_[spring].form->limits.is_rough();
 }
 
-/// The pull along the surface, cut to the cone of the push.
+/// Updates the pull along the surface, cut to the cone of the push.
 template <bool rubs>
 void MidpointRule<rubs>::update_pull(std::size_t push, double substep) requires rubs
 {
@@ -305,8 +306,8 @@ void MidpointRule<rubs>::slide(std::size_t push, double substep) requires rubs
     pull.form->slides = pull.is_cut;
 }
 
-/// One of Newton's steps: each force is taken to follow its slope. In the scaled velocities the
-/// matrix is 1 + symmetric: Cholesky.
+/// Makes one of Newton's steps, with each force linear along its slope. In the scaled velocities
+/// the matrix is 1 + a symmetric matrix, so Cholesky's method solves it.
 template <bool rubs>
 typename MidpointRule<rubs>::Six MidpointRule<rubs>::newton_step(const Six& missed,
                                                                  double substep) const
@@ -328,7 +329,7 @@ typename MidpointRule<rubs>::Six MidpointRule<rubs>::newton_step(const Six& miss
         const Spring& spring = spring_[row.spring];
         const bool is_last = i + 1 == rows_ || row_[i + 1].spring != row.spring;
         if (!spring.form->holds || !is_last || !spring.is_limited) continue;
-        // A pull with its full force only turns: along the pull there is no slope.
+        // A pull at its greatest force only turns: it has no slope along its own direction.
         Six pull;
         for (int axis : {0, 1, 2})
             pull.add(spring.pull[axis], row_[i - 2 + static_cast<std::size_t>(axis)].response);
@@ -340,7 +341,7 @@ typename MidpointRule<rubs>::Six MidpointRule<rubs>::newton_step(const Six& miss
         for (std::size_t j = 0; j <= i; ++j) {
             double sum = lower[i][j];
             for (std::size_t k = 0; k < j; ++k) sum -= lower[i][k] * lower[j][k];
-            // No eigenvalue is below 1; less is rounding.
+            // No eigenvalue is below 1; a smaller one is rounding.
             lower[i][j] = i == j ? std::sqrt(std::max(sum, 1.0)) : sum / lower[j][j];
         }
         for (std::size_t k = 0; k < i; ++k) x[i] -= lower[i][k] * x[k];
@@ -389,9 +390,9 @@ MidpointRule<rubs>::newton_step_unsymmetric(const Six& missed, double substep) c
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
 }
 
-/// The velocities at which the springs' forces are what brings them about: the lowest point of a
-/// convex function, since no force falls with its depth. Where a step goes beyond the lowest point
-/// of its line, what it has overshot is taken back.
+/// Finds the velocities that follow from the springs' forces at these velocities. They are the
+/// minimum of a convex function, since no force falls with its depth. Where a step goes beyond the
+/// minimum along its line, the excess is taken back.
 template <bool rubs>
 void MidpointRule<rubs>::solve(double substep)
 {
@@ -410,7 +411,7 @@ void MidpointRule<rubs>::solve(double substep)
     Six velocities;
     Six missed = update_forces(velocities, substep);
     for (std::size_t step = 1; step < MidpointBudget::newton_steps_max; ++step) {
-        // A step is no longer than what is missed.
+        // A step is no longer than the error.
         if (is_negligible(missed)) return;
         const Six change = newton_step(missed, substep);
         rows_solved_ += rows_;

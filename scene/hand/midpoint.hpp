@@ -13,9 +13,9 @@
 
 namespace hapnet::scene {
 
-/// The most that a tick of the midpoint rule may cost: substeps times steps of Newton's method
-/// times rows (a spring that pushes has one, one that holds or has friction three). With few rows
-/// there are more substeps.
+/// The limit of the work of a tick of the midpoint rule: substeps times steps of Newton's method
+/// times rows. A spring that pushes has one row; a spring that holds or has friction has three.
+/// With few rows there are more substeps.
 struct MidpointBudget {
     static constexpr std::size_t springs_max = 8;
     static constexpr std::size_t rows_max = 3 * springs_max;
@@ -29,36 +29,41 @@ struct MidpointBudget {
     }
 };
 
-/// A rigid body under any number of springs, which may hold, and drag along a plane: the implicit
-/// midpoint rule, in substeps short against the stiffest mode as far as the budget goes. The mean
-/// force of a unilateral spring over a substep is its energy's difference over its depth's (a
-/// discrete gradient): so with held directions neither contact that begins nor one that ends makes
-/// or loses energy. Second order; stable however stiff. Forces add to what is in `work`.
+/// A rigid body under any number of springs, some of which may hold it, and under drag along a
+/// plane. It is solved by the implicit midpoint rule. The substeps are short against the stiffest
+/// mode as far as the budget allows. The mean force of a unilateral spring over a substep is its
+/// change of energy over its change of depth (a discrete gradient). So with held directions a
+/// contact that begins or ends neither makes nor loses energy. The rule is second order and stable
+/// however stiff the springs are. Its forces add to the values in `work`.
 ///
-/// All springs act on one body, so Newton's method goes on in its six velocities. Where its steps
-/// end before it has converged, momentum is kept all the same; energy is the caller's to check.
+/// All springs act on one body, so Newton's method runs on the body's six velocities. Where its
+/// steps end before it has converged, momentum is conserved nevertheless. The caller has to check
+/// the energy.
 ///
-/// Where springs may have friction (`rubs`), a push has two more rows, along the surface. With the
-/// stretch e at the start of a substep and e* = e + h v at its end if nothing slid, the pull is
-/// k (e + e*)/2 + c v, cut to the cone of the push, and the stretch then e*, cut to what stores
-/// that pull. So k |e|^2 / 2 takes in no more than the pull's work, whether it sticks or slides.
+/// If `rubs`, a push has two more rows, along the surface, for its friction. Let e be the stretch
+/// at the start of a substep and e* = e + h v the stretch at its end if nothing slid. The pull is k
+/// (e + e*)/2 + c v, cut to the cone of the push. The new stretch is e*, cut to the stretch that
+/// stores that pull. So k |e|^2 / 2 takes in no more than the pull's work, whether the hand sticks
+/// or slides.
 template <bool rubs = false>
 class MidpointRule {
 public:
     MidpointRule(MovingBody& body, const BodyDynamics& dynamics,
                  std::span<const HandSpring> springs, std::span<SpringImpulse> work);
 
-    /// The friction of each spring; has to be set before the tick where springs may have any.
+    /// Sets the friction of each spring. Call it before the tick where springs may have friction.
     void set_friction(std::span<FrictionSpring> frictions) requires rubs;
 
-    /// Returns how many rows it has solved: of each substep, once for each step of Newton's method.
+    /// Returns the number of rows that it has solved, counted in each step of Newton's method of
+    /// each substep.
     std::size_t advance(double time);
 
 private:
     static constexpr std::size_t springs_max = MidpointBudget::springs_max;
     static constexpr std::size_t rows_max = MidpointBudget::rows_max;
 
-    /// Velocities of the centre and of turning, scaled so that a force changes them by itself.
+    /// The velocities of the centre and of rotation, divided by the square root of the body's
+    /// response to forces (PlaneDrag::root_of_response() and RootOfHalf).
     struct Six {
         glm::dvec3 linear{0.0};
         glm::dvec3 angular{0.0};
@@ -97,7 +102,8 @@ private:
         bool is_limited = false; // the spring holds with its greatest force, along `pull`
         glm::dvec3 pull{0.0};    // unit
     };
-    /// The pull of a spring along the surface; its rows are the two after that of the push.
+    /// The pull of a spring along the surface. Its rows are the two that follow the row of the
+    /// push.
     struct Pull {
         FrictionSpring* form = nullptr;
         glm::dvec3 stretch{0.0};
@@ -108,7 +114,8 @@ private:
     [[nodiscard]] int substeps(double time);
     void set_rows(const PlaneDrag& drag, double substep);
     void solve(double substep);
-    /// The forces at these velocities; returns how far they are from what the forces make of them.
+    /// Computes the forces at these velocities. Returns how far these velocities are from those
+    /// that follow from the forces.
     Six update_forces(const Six& velocities, double substep);
     [[nodiscard]] Six newton_step(const Six& missed, double substep) const;
     void limit_grip_force(std::size_t first);

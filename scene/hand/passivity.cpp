@@ -15,17 +15,18 @@ namespace hapnet::scene {
 
 namespace {
 
-// The error of differences of energies, as a share of all energies that are there.
+// The error of differences of energies, as a share of all energies in the sum.
 constexpr double energy_rounding = 1e-9;
-// The gain by a rule that holds directions while they turn, as a share of the stored and exchanged
-// energy.
+// The energy gain of a rule that holds directions while they turn, as a share of the stored and
+// exchanged energy.
 constexpr double second_order = 0.03;
 // The rounding of a sum of phases, as a share of the greatest force.
 constexpr double force_rounding = 1e-9;
-// Radians in a tick beyond which the inertia at the start says little of the end.
+// The turn in a tick, in radians, beyond which the inertia at the start is no estimate of that at
+// the end.
 constexpr double far_turn_of_pressed = 0.25;
 
-/// The energy of a spring at the start of its tick.
+/// Returns the energy of a spring at the start of its tick.
 double stored_energy(const HandSpring& spring)
 {
     if (!spring.holds) return spring_energy(spring, -spring.gap);
@@ -62,8 +63,8 @@ MomentsRatio moments_of(const BodyDynamics& dynamics)
     return {most / least - 1.0, 0.5 * trace / sum * (1.0 / least - 1.0 / most)};
 }
 
-/// Returns the energy of a pull along a surface that the push at a depth can hold: none where they
-/// are apart.
+/// Returns the energy of a pull along a surface that the push at a depth can hold. It is zero where
+/// they are apart.
 double pull_energy(const HandSpring& spring, const FrictionSpring& friction, double stretch,
                    double depth)
 {
@@ -99,7 +100,7 @@ public:
         after_ = kinetic_energy(body.end);
     }
 
-    /// The share of the impulses that is passive.
+    /// Returns the largest passive share of the impulses.
     [[nodiscard]] double share(double stored, SpringsAtEnd at_end) const
     {
         const double there = before_ + after_ + std::abs(driven_);
@@ -107,14 +108,14 @@ public:
         const glm::dmat3& light = body_.dynamics.inverse_inertia;
         const EnergyOfShare at_start = energy_with(light, light);
         double share = 1.0;
-        // The uncertainty by turning shrinks with the share.
+        // The uncertainty from rotation shrinks with the share.
         for (int round = 0; round < share_rounds_max; ++round) {
             const double turning = turning_slack(share);
             double within = at_start.share_within(stored + rounding + turning);
             if (grips_.impulse > 0.0) {
                 EnergyOfShare gripped = at_start;
                 gripped.linear -= grips_.most(fastest(share)) - grips_.driven;
-                // A grip may have stored megajoules, of which the share has next to nothing.
+                // A grip may have stored megajoules, of which the share gives almost nothing.
                 const double others = stored - grips_.stored;
                 const double slack =
                     turning + energy_rounding * (before_ + share * (there - before_) + others);
@@ -124,8 +125,8 @@ public:
             share = next_share(share, within, round);
         }
         if (at_end == SpringsAtEnd::ignored) return share;
-        // The energy stored at the end follows from the body's place and orientation at that time.
-        // Its inertia follows from the orientation, too.
+        // The energy stored at the end follows from the body's place and orientation at that time,
+        // and so does its inertia.
         const EnergyOfShare energy =
             energy_with(inverse_inertia_of(body_.end), inverse_inertia_of(free_));
         const double then = stored_at(body_.end);
@@ -133,8 +134,8 @@ public:
         return std::min(share, energy.share_within(stored - then + rounding + vague));
     }
 
-    /// Scales what the hands did to the body. It ends where the springs store less: where they
-    /// pushed it to, or where the smaller push would have.
+    /// Scales the effect of the hands on the body. The body ends where the springs store less: at
+    /// the place to which the full push moved it, or at that of the smaller push.
     void scale(double share)
     {
         MovingBody& end = body_.end;
@@ -158,8 +159,8 @@ public:
     [[nodiscard]] const GripEnergy& grips() const { return grips_; }
 
 private:
-    /// Returns the energy with the inverse inertia at the end, and with the one that the body has
-    /// there without hands.
+    /// Returns the energy with the inverse inertia at the end, and with the one that the body would
+    /// have there without hands.
     [[nodiscard]] EnergyOfShare energy_with(const glm::dmat3& light,
                                             const glm::dmat3& light_free) const
     {
@@ -208,7 +209,8 @@ private:
         return kinetic_energy(free_) - before_ - work;
     }
 
-    /// The speed of the fastest corner, at the start or at the end with a share of the impulses.
+    /// Returns the speed of the fastest corner, at the start or at the end with a share of the
+    /// impulses.
     [[nodiscard]] double fastest(double share) const
     {
         const glm::dmat3& light = body_.dynamics.inverse_inertia;
@@ -221,7 +223,8 @@ private:
         return std::max(before, after);
     }
 
-    /// Returns how wrong the energy of turning may be that the inertia at the start gives, J.
+    /// Returns how wrong the rotational energy may be when it is computed with the inertia at the
+    /// start, J.
     [[nodiscard]] double turning_slack(double share) const
     {
         const MomentsRatio moments = moments_of(body_.dynamics);
@@ -232,7 +235,7 @@ private:
         const glm::dvec3 after = free_.angular_momentum + given;
         const double spin = std::max(length(light * before), length(light * after));
         const double angle = spin * body_.tick;
-        // Half of what it may be at most: the spin may be the smaller one of the end.
+        // Half of the greatest possible error: the spin at the end may be the smaller one.
         const double slack = 0.5 * moments.spread * std::min(angle, 1.0) * spin * length(given);
         if (angle <= far_turn_of_pressed) return slack;
         return slack + 0.5 * moments.range * (glm::dot(before, before) + glm::dot(after, after));
@@ -294,7 +297,7 @@ private:
     GripEnergy grips_;
 };
 
-/// The share with which no spring gives more than it can.
+/// Returns the share with which no spring gives more than it can.
 double share_within_forces(std::span<const HandSpring> springs, std::span<const SpringImpulse> work,
                            double tick)
 {

@@ -14,7 +14,7 @@ PlaneDrag::PlaneDrag(const BodyDynamics& dynamics, double time)
 {
     if (dynamics.drag == 0.0) return;
     along_ = across_ = factors_of(dynamics.drag * time);
-    // Nothing moves along locked axes: only the other components of the plane's normal count.
+    // Nothing moves along locked axes, so only the other components of the plane's normal count.
     const glm::dvec3& light = dynamics.inverse_mass;
     const glm::dvec3& normal = dynamics.drag_normal;
     const glm::dvec3 unlocked{light.x > 0.0 ? normal.x : 0.0, light.y > 0.0 ? normal.y : 0.0,

@@ -8,8 +8,8 @@
 
 namespace hapnet::scene {
 
-/// A body's centre for a time in which viscous drag along a plane and constant forces act on it,
-/// exact however strong the drag is. Without drag: the parabola.
+/// The motion of a body's centre over a time in which viscous drag along a plane and constant
+/// forces act on it. It is exact however strong the drag is. Without drag it is the parabola.
 class PlaneDrag {
 public:
     PlaneDrag(const BodyDynamics& dynamics, double time);
@@ -26,16 +26,16 @@ public:
     {
         return scaled(velocity, &Factors::mean) + time_ * scaled(acceleration, &Factors::moved);
     }
-    /// The square root of how a force moves the centre: mean_velocity(0, M^-1 f) is time times this
-    /// taken twice of f.
+    /// Returns the square root of the centre's response to a force: mean_velocity(0, M^-1 f) is
+    /// time times this operator applied twice to f.
     [[nodiscard]] glm::dvec3 root_of_response(const glm::dvec3& force) const
     {
         return scaled(root_of_inverse_mass_ * force, &Factors::root_of_moved);
     }
 
 private:
-    /// With x = drag times time: exp(-x), (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2.
-    struct Factors { // the default values: without drag
+    /// The factors, with x = drag times time: exp(-x), (1 - exp(-x))/x and (x - 1 + exp(-x))/x^2.
+    struct Factors { // the defaults are those without drag
         double kept = 1.0;
         double mean = 1.0;
         double moved = 0.5;

@@ -28,7 +28,8 @@ void PressedModes::renew(const Key& key)
     cosine_ = 1.0 / std::sqrt(1.0 + tangent * tangent);
     const double sine = tangent * cosine_;
     sine_ = Two{sine, -sine};
-    // Where the terms cancel, rounding must not leave a negative response: no force feeds itself.
+    // Where the terms cancel, rounding must not leave a negative response: no force amplifies
+    // itself.
     const double shift = tangent * key.mutual;
     response_ = Two{std::max(0.0, key.own[0] - shift), std::max(0.0, key.own[1] + shift)};
     Mode a, b;
@@ -40,9 +41,9 @@ void PressedModes::renew(const Key& key)
     change_by_left_ = Two{a.change_by_left, b.change_by_left};
 }
 
-/// With y_n = y^(n)(0) tick^n / n! and f_n defined the same way, y_(n+2) = -tick^2 response f_n /
-/// ((n+1) (n+2)), and the integrals of the force are the sums of f_n over n+1, over (n+1) (n+2),
-/// and so on.
+/// Sets the integrals of a mode. With y_n = y^(n)(0) tick^n / n! and f_n defined the same way,
+/// y_(n+2) = -tick^2 response f_n / ((n+1) (n+2)). The integrals of the force are the sums of f_n
+/// over n+1, over (n+1) (n+2), and so on.
 bool PressedModes::set(Mode& mode, double response) const
 {
     const double tick = key_.tick;
@@ -50,7 +51,7 @@ bool PressedModes::set(Mode& mode, double response) const
     const double stiff = tick * tick * response;
     constexpr double slow = 1.0;
     if (!(stiff * (key_.stiffness + damping) <= slow)) return false;
-    constexpr double rounding = 1e-16; // what comes after two such terms is less
+    constexpr double rounding = 1e-16; // the terms after two such terms are less
     double y = 0.0, next = tick;
     double last = 0.0;
     for (std::size_t n = 0; n < terms_max; ++n) {

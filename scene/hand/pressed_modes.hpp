@@ -7,16 +7,16 @@
 namespace hapnet::scene {
 
 /// The motion of one or two equal springs that press a body throughout a tick, for any depth and
-/// speed. The depths d are d'' = a - G f with the forces f = stiffness d + damping d' and the
-/// matrix G of how they respond, 1/kg. G's two modes are oscillators of their own; of each the tick
-/// needs three integrals, which are Taylor's series to rounding. They follow from the key alone, so
-/// that find() keeps them for the next tick without changing a bit.
+/// speed. The depths obey d'' = a - G f with the forces f = stiffness d + damping d' and the matrix
+/// G of the depths' response to them, 1/kg. Each of G's two modes is an oscillator. The tick needs
+/// three integrals of each, which are Taylor's series to rounding. The integrals follow from the
+/// key alone, so find() keeps them for the next tick without changing a bit.
 class PressedModes {
 public:
-    /// Everything that they depend on.
+    /// All values that the modes depend on.
     struct Key {
-        Two own{};           // how a depth responds to its own force; 0: no second spring
-        double mutual = 0.0; // how a depth responds to the other spring's force
+        Two own{};           // response of a depth to its own force; 0: no second spring
+        double mutual = 0.0; // response of a depth to the other spring's force
         double stiffness = 0.0;
         double damping = 0.0;
         double tick = 0.0;
@@ -28,19 +28,19 @@ public:
         }
     };
 
-    /// Finds the modes of a key. Returns false when the tick is long for the springs.
+    /// Finds the modes of a key. Returns false when the tick is too long for such stiff springs.
     [[nodiscard]] bool find(const Key& key)
     {
         if (!(key == key_)) renew(key);
         return is_short_;
     }
 
-    /// Depth, speed and acceleration at the start.
+    /// The depths, their speeds and their accelerations at the start.
     struct Start {
         Two depth, speed, acceleration;
     };
-    /// Over the tick: the forces' impulses, N s, their integrals, N s^2, and the most by which the
-    /// forces can leave what they are at the start, N.
+    /// The forces' impulses over the tick, N s, the integrals of the impulses, N s^2, and bounds of
+    /// how far the forces can depart from their values at the start, N.
     struct Outcome {
         Two impulse, moment, change;
     };
@@ -49,7 +49,8 @@ public:
     {
         const Two depth = to_modes(start.depth);
         const Two speed = to_modes(start.speed);
-        // A depth that stays presses evenly; what it does not hold in balance accelerates.
+        // A constant depth presses evenly. The part of `a` that this force does not balance
+        // accelerates the depth.
         const Two force = both(key_.stiffness) * depth;
         const Two left = to_modes(start.acceleration) - response_ * force;
         const Two change = change_by_speed_ * sizes(speed) + change_by_left_ * sizes(left);
@@ -59,9 +60,9 @@ public:
     }
 
 private:
-    /// An oscillator that begins at zero: of its force when it begins with speed 1 the integral,
-    /// the integral of that, ... and the most by which the force changes, and by which its integral
-    /// does.
+    /// An oscillator that begins at zero with speed 1: the integral of its force, the integral of
+    /// that integral, and so on; then bounds of the change of its force and of the change of the
+    /// force's integral.
     struct Mode {
         double once = 0.0, twice = 0.0, thrice = 0.0;
         double change_by_speed = 0.0, change_by_left = 0.0;

@@ -6,7 +6,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// The time in which level + slope t is on the positive side, within [from, to].
+/// The part of [from, to] in which level + slope t is positive.
 struct Interval {
     double from, to;
 };
@@ -18,7 +18,7 @@ Interval positive(double level, double slope, Interval within)
     return slope > 0.0 ? Interval{root, within.to} : Interval{within.from, root};
 }
 
-/// The integral of level + slope t.
+/// Returns the integral of level + slope t.
 double integral(double level, double slope, Interval over)
 {
     return (over.to - over.from) * (level + 0.5 * slope * (over.from + over.to));

@@ -55,8 +55,8 @@ ContactGeometry BoxSurface::at_box(const glm::dmat3& axes, const glm::dvec3& han
     const glm::dvec3 centre = hand * axes;
     double distance = glm::dot(face_, centre) - glm::dot(glm::abs(face_), half_);
     glm::dvec3 normal = face_;
-    // Beside the face its plane does not count: far out there it would turn the body by a long
-    // lever.
+    // Beside the face its plane does not count: far out there a force on it would turn the body
+    // with a long lever.
     const glm::dvec3 beside = (1.0 - glm::abs(face_)) * (glm::abs(centre) - half_);
     const bool is_beside = beside.x > 0.0 || beside.y > 0.0 || beside.z > 0.0;
     if (distance >= 0.0 || !is_face_ || is_beside) {
@@ -76,7 +76,7 @@ ContactGeometry BoxSurface::at_box(const glm::dmat3& axes, const glm::dvec3& han
 
 namespace {
 
-/// The share of a further impulse with which a spring gives `most` together at most.
+/// Returns the share of a further impulse with which the spring gives at most `most` in total.
 double share_within(const glm::dvec3& given, const glm::dvec3& more, double most)
 {
     if (std::isinf(most)) return 1.0;

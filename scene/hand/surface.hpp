@@ -15,19 +15,19 @@ struct ContactGeometry {
     double depth = 0.0;     // > 0: overlap
 };
 
-/// A box and a hand's sphere near it, in the box's frame; of a round body its core, and a sphere
-/// that is larger by the rounding: where they
-/// touch while the box turns and the hand moves on. The nearest point of the box; a sphere whose
-/// centre is within it stays at the face where it was at the start.
+/// A box and a hand's sphere near it, in the box's frame. It finds their contact while the box
+/// turns and the hand moves on. The nearest point of the box counts, but a sphere whose centre is
+/// within the box stays at the face where it was at the start. A round body is represented by its
+/// core, and the sphere is then larger by the rounding.
 class BoxSurface {
 public:
     BoxSurface() = default;
-    /// `axes` are the body's, in the world.
+    /// `axes` are the axes of the body in the world's frame.
     BoxSurface(const HandSpring& spring, const BodyDynamics& dynamics, const glm::dmat3& axes);
 
-    /// True if it was a face at the start.
+    /// True if the contact was at a face at the start.
     [[nodiscard]] bool is_face() const { return is_face_; }
-    /// True if it is a face, and the hand too far from its edges to leave it soon.
+    /// True if the contact is at a face, and the hand too far from its edges to leave it soon.
     [[nodiscard]] bool is_amid_face(const glm::dmat3& axes, const glm::dvec3& hand) const;
 
     /// Returns the geometry with the hand's centre at `hand`, seen from the body's centre in the
@@ -44,7 +44,7 @@ private:
     bool is_face_ = false;
 };
 
-/// The mass of a body along each axis; 0 where it is locked.
+/// Returns the mass of a body along each axis; 0 where it is locked.
 [[nodiscard]] glm::dvec3 mass_of(const BodyDynamics& dynamics);
 
 /// A body at the end of its tick.
@@ -55,15 +55,16 @@ struct EnergyCorrection {
     double tick = 0.0;
 };
 
-/// The depth of a spring that presses, as it followed from what was held, and as it is.
+/// The depth of a spring that presses: the value that followed from the held geometry, and the true
+/// one.
 struct SpringDepths {
     double followed = 0.0;
     double true_m = 0.0;
 };
 
-/// Scales the speed relative to the hand by the little that makes the spring's energy what the
-/// true depth says; no more than the spring can give in the tick. It may lose any energy, and gain
-/// little: more cannot come from a geometry that is a little off.
+/// Corrects the speed relative to the hand slightly, so that the spring's energy is that of the
+/// true depth. The correction is at most what the spring can give in the tick. It may remove any
+/// energy but adds only a little, as a geometry that is slightly off explains no more.
 void correct_energy(const EnergyCorrection& settling, const HandSpring& spring,
                     const SpringDepths& depths, SpringImpulse& work);
 

@@ -7,9 +7,9 @@
 
 namespace hapnet::scene {
 
-/// With d_n = d^(n)(0) tick^n / n! and f_n defined the same way, d_(n+2) = -tick^2 G f_n / ((n+1)
-/// (n+2)), and the integrals of the force are the sums of f_n / (n+1) and of f_n / ((n+1) (n+2)).
-/// The sum of all |f_n| but the first is the most that the force can change.
+/// Sums the series. With d_n = d^(n)(0) tick^n / n! and f_n defined the same way, d_(n+2) = -tick^2
+/// G f_n / ((n+1) (n+2)). The integrals of the force are the sums of f_n / (n+1) and of f_n /
+/// ((n+1) (n+2)). The sum of all |f_n| but the first bounds the change of the force.
 std::optional<PressedModes::Outcome> UnlikeSprings::outcome(const PressedModes::Start& start) const
 {
     using Each = std::array<double, 2>;
@@ -28,7 +28,7 @@ std::optional<PressedModes::Outcome> UnlikeSprings::outcome(const PressedModes::
         size += std::abs(force[i]);
     }
     constexpr std::size_t series_max = 24;
-    constexpr double rounding = 1e-14; // what comes after two such terms is less
+    constexpr double rounding = 1e-14; // the terms after two such terms are less
     const double converged = rounding * size;
     double last = size;
     for (std::size_t n = 0; n < series_max; ++n) {

@@ -8,15 +8,16 @@
 
 namespace hapnet::scene {
 
-/// Two springs of any stiffness and damping each that press a body throughout a tick. Their depths
-/// have no modes of their own as PressedModes has, so both go as one Taylor's series, to rounding.
+/// Two springs, each with its own stiffness and damping, that press a body throughout a tick.
+/// Unlike those of PressedModes, their depths have no separate modes, so both are computed as one
+/// Taylor's series, to rounding.
 struct UnlikeSprings {
-    Two own{}; // how a depth responds to its own force, 1/kg
+    Two own{}; // response of a depth to its own force, 1/kg
     double mutual = 0.0;
     Two stiffness{}, damping{};
     double tick = 0.0;
 
-    /// Returns nullopt when the tick is long for the springs.
+    /// Returns nullopt when the tick is too long for such stiff springs.
     [[nodiscard]] std::optional<PressedModes::Outcome>
     outcome(const PressedModes::Start& start) const;
 };

@@ -34,7 +34,8 @@ Sample sample(const WatchedQuantity& watched, const Trajectories& trajectories, 
     return s;
 }
 
-/// The longest time for which value + rate t - bend_max t^2 / 2 stays positive, value >= 0.
+/// Returns the longest time for which value + rate t - bend_max t^2 / 2 stays positive, for value
+/// >= 0.
 double safe_step(double value, const Sample& s)
 {
     const double root = std::sqrt(s.rate * s.rate + 2.0 * value * s.second_derivative_max);
@@ -59,7 +60,7 @@ RootSearch search_root(const WatchedQuantity& watched, const Trajectories& traje
         const bool falls = s.rate < 0.0 ||
                            (s.rate == 0.0 && s.second_derivative < -flat * s.second_derivative_max);
         if (!watched.leaves_zero && falls) return {End::found, time};
-        // The quantity rises from 0: look again a moment later.
+        // The quantity rises from 0: the search continues a moment later.
         if (watched.leaves_zero || safe_step(0.0, s) <= nearest) {
             time = from + (to - from) / 1024.0;
             s = sample(watched, trajectories, time, to);
@@ -84,7 +85,7 @@ std::optional<double> first_root(const WatchedQuantity& watched, const Trajector
     const RootSearch search = search_root(watched, trajectories, from, to, steps);
     if (search.end == RootSearch::End::none) return std::nullopt;
     if (search.end == RootSearch::End::found) return search.time;
-    // Hundreds of periods in one tick, and none has come to it so far: only the end counts.
+    // Hundreds of periods in one tick, and no root so far: only the sign at the end counts.
     const bool is_below = sample(watched, trajectories, to, to).value < 0.0;
     return is_below ? std::optional{search.time} : std::nullopt;
 }

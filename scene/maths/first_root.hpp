@@ -14,9 +14,9 @@ namespace hapnet::scene {
 /// The trajectories of the three axes.
 using Trajectories = std::array<Trajectory, 3>;
 
-/// A quantity that is watched while the axes run their trajectories: level + slope t + the sum over
-/// the axes of displacement_weight displacement + speed_weight speed. It is positive until the
-/// event.
+/// A quantity that is watched while the axes move along their trajectories: level + slope t + the
+/// sum over the axes of displacement_weight displacement + speed_weight speed. It is positive until
+/// the event.
 struct WatchedQuantity {
     double level = 0.0;
     double slope = 0.0;
@@ -40,16 +40,16 @@ struct RootSearch {
     double time = 0.0; // time of the root; if given up: there is none before it
 };
 
-/// Finds the time when the quantity first falls to 0, in [from, to). No root is missed: the search
-/// goes on by steps within which a bound of the second derivative rules one out, and approaches the
-/// root from before it as fast as Newton's method does. It is given up after 200 steps, which take
-/// a wave of some hundred periods, or when none of `steps_left` is left.
+/// Finds the time when the quantity first falls to 0, in [from, to). No root is missed: each step
+/// is so short that a bound of the second derivative rules out a root within it. The search
+/// approaches the root from before it as fast as Newton's method does. It is given up after 200
+/// steps, which suffice for some hundred periods of a wave, or when `steps_left` is used up.
 [[nodiscard]] RootSearch search_root(const WatchedQuantity& watched,
                                      const Trajectories& trajectories, double from, double to,
                                      int& steps_left);
 
 /// Returns the time that search_root() finds; nullopt when the quantity does not fall to 0. After
-/// 200 steps it only asks for the sign at the end.
+/// 200 steps it only checks the sign at the end.
 [[nodiscard]] std::optional<double> first_root(const WatchedQuantity& watched,
                                                const Trajectories& trajectories, double from,
                                                double to);

@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// Two doubles that are worked on at once: one register of any 64-bit machine. Each has the same
+/// Two doubles that are computed at once: one register of any 64-bit machine. Each has the same
 /// bits as a double alone.
 using Two = double __attribute__((vector_size(16)));
 

@@ -9,7 +9,7 @@
 
 namespace hapnet::scene {
 
-/// 1 + a sum of products.
+/// A 6x6 matrix: the identity plus a sum of outer products.
 class Matrix6 {
 public:
     using Vector = std::array<double, 6>;
@@ -23,7 +23,7 @@ public:
             for (std::size_t j = 0; j < 6; ++j) rows_[i][j] += scale * to[i] * from[j];
         }
     }
-    /// Gauss, with the largest of a column as its pivot.
+    /// Solves the equations by Gaussian elimination. The pivot is the largest entry of a column.
     void solve(Vector& x)
     {
         for (std::size_t k = 0; k < 6; ++k) {

@@ -18,7 +18,7 @@ constexpr std::array<double, 24> reciprocals = [] {
     return r;
 }();
 
-/// 1/n!
+/// The values of 1/n!.
 constexpr std::array<double, 24> inverse_factorials = [] {
     std::array<double, 24> all{1.0, 1.0};
     for (std::size_t n = 2; n < all.size(); ++n) all[n] = all[n - 1] / static_cast<double>(n);
@@ -26,9 +26,9 @@ constexpr std::array<double, 24> inverse_factorials = [] {
 }();
 
 /// The rate (n = 0), the step (1), the push (2), the ramp (3) and their further integrals, each in
-/// units of time^n, follow from each other by the equation of motion:
-/// y_n = 1/n! - b y_(n+1) - k y_(n+2) with b = damping time and k = stiffness time^2. From `last`
-/// on they are taken as a free body's 1/n!; every step back from there makes that error smaller.
+/// units of time^n, follow from each other by the equation of motion: y_n = 1/n! - b y_(n+1) - k
+/// y_(n+2) with b = damping time and k = stiffness time^2. From `last` on they are set to a free
+/// body's 1/n!. Every step back from there reduces that error.
 template <std::size_t last>
 StepResponse series(double b, double k, double t)
 {
@@ -49,8 +49,8 @@ StepResponse series(double b, double k, double t)
     return {rate, step * t, push * square, ramp * (square * t)};
 }
 
-/// Sums the series, for damping * time <= 1 and stiffness * time^2 <= 1. It has enough terms to
-/// leave out less than 2e-17 of the free body's response.
+/// Sums the series, for damping * time <= 1 and stiffness * time^2 <= 1. It has so many terms that
+/// it omits less than 2e-17 of the free body's response.
 StepResponse series(double b, double k, double t)
 {
     return b <= 1.0 / 8.0 && k <= 1.0 / 32.0 ? series<12>(b, k, t) : series<19>(b, k, t);
@@ -85,12 +85,12 @@ StepResponse overdamped(const Oscillator& oscillator, double half_width, double 
             (a.once - b.once) / width, (a.twice - b.twice) / width};
 }
 
-/// cos(w t) and sin(w t) / w, or cosh and sinh where w^2 < 0, both times exp(-decay t).
+/// The values cos(w t) and sin(w t) / w, or cosh and sinh where w^2 < 0, each times exp(-decay t).
 struct Wave {
     double cosine, sine;
 };
 
-/// Computes the wave where cos and cosh meet, by their series, |w t| < 1.
+/// Computes the wave near w = 0, where cos and cosh meet, by their series, |w t| < 1.
 Wave slow_wave(double decay, double square, double t)
 {
     const double z = square * t * t;
@@ -106,7 +106,7 @@ Wave slow_wave(double decay, double square, double t)
     return {fading * cosine, fading * sine * t};
 }
 
-/// `square` is w^2.
+/// Computes the wave. `square` is w^2.
 Wave wave(double decay, double square, double t)
 {
     const double z = square * t * t;
@@ -117,7 +117,7 @@ Wave wave(double decay, double square, double t)
         const double fast = base::exp(-std::min((decay + w) * t, 700.0));
         return {0.5 * (slow + fast), 0.5 * (slow - fast) / w};
     }
-    // base::sin takes up to 1e6 rad; what is beyond is halved and doubled again.
+    // base::sin accepts up to 1e6 rad; a larger angle is halved and doubled again.
     const double w = std::sqrt(square);
     double angle = w * t;
     int halvings = 0;

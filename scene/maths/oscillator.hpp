@@ -8,19 +8,19 @@
 
 namespace hapnet::scene {
 
-/// A damped oscillator: x'' = A + R t - damping x' - stiffness x, per unit of mass. Both
-/// may be 0: a parabola; without stiffness: an exponential; otherwise an oscillator, under-,
-/// critically or over-damped.
+/// A damped oscillator: x'' = A + R t - damping x' - stiffness x, per unit of mass. Without damping
+/// and stiffness its motion is a parabola, without stiffness an exponential, otherwise an under-,
+/// critically or over-damped oscillation.
 struct Oscillator {
     double damping = 0.0;   // 1/s, >= 0
     double stiffness = 0.0; // 1/s^2, >= 0
 };
 
-/// The response of an oscillator that rests at 0, at one moment t: `step` is its place after a kick
-/// of speed 1, S(t); `rate` is S'; `push` the integral of S, the answer to a steady acceleration of
-/// 1; `ramp` the integral of that, the answer to one that grows by 1 per second. Everything linear
-/// follows by adding: no equilibrium is subtracted, so nothing is lost where stiffness or damping
-/// is small.
+/// The response of an oscillator that rests at 0, at one moment t. `step` is its displacement S(t)
+/// after a kick of speed 1; `rate` is S'. `push` is the integral of S, the response to a steady
+/// acceleration of 1. `ramp` is the integral of `push`, the response to an acceleration that grows
+/// by 1 per second. Every linear response is a sum of these. No equilibrium is subtracted, so
+/// nothing is lost where stiffness or damping is small.
 struct StepResponse {
     double rate = 1.0;
     double step = 0.0;
@@ -28,12 +28,12 @@ struct StepResponse {
     double ramp = 0.0;
 };
 
-/// The response after `time` >= 0 seconds. Within 2e-14 of the true values, relative to those of a
-/// free body (1, t, t^2/2, t^3/6), for stiffness time^2 up to 1e5; beyond that the phase itself is
-/// only known to its rounding, 1e-16 of the angle.
+/// Returns the response after `time` >= 0 seconds. Its error is within 2e-14, relative to the
+/// response of a free body (1, t, t^2/2, t^3/6), for stiffness time^2 up to 1e5. Beyond that the
+/// phase itself is known only to its rounding, 1e-16 of the angle.
 [[nodiscard]] StepResponse step_response(const Oscillator& oscillator, double time);
 
-/// An oscillator with its response at the end of a tick, which is the one that most ticks need.
+/// An oscillator with its response at the end of a tick, which most ticks need.
 struct Propagator {
     Oscillator oscillator;
     double frequency = 0.0; // angular frequency without damping, 1/s
@@ -70,7 +70,7 @@ struct Trajectory {
     double ramp;  // rate at which `push` grows, m/s^3
 
     [[nodiscard]] bool moves() const { return propagator != nullptr; }
-    /// True if it stays where it is, whatever its propagator.
+    /// True if the coordinate stays where it is, whatever the propagator is.
     [[nodiscard]] bool is_idle() const { return speed == 0.0 && push == 0.0 && ramp == 0.0; }
     [[nodiscard]] TrajectoryPoint at(const StepResponse& r) const
     {
@@ -95,9 +95,9 @@ struct Trajectory {
     }
 };
 
-/// The greatest acceleration, and rate of it, from a moment on for `time` seconds. Acceleration
-/// a obeys the oscillator without forces, a'' + damping a' + stiffness a = 0, whose energy a'^2 +
-/// stiffness a^2 never grows.
+/// The greatest acceleration, and its greatest rate, for `time` seconds from a moment on. The
+/// acceleration a obeys the oscillator without forces, a'' + damping a' + stiffness a = 0, whose
+/// energy a'^2 + stiffness a^2 never grows.
 struct Bounds {
     double acceleration;
     double jerk;

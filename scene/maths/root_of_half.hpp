@@ -9,8 +9,8 @@
 
 namespace hapnet::scene {
 
-/// G with G G^T = m / 2 for an inverse inertia, lower triangular; taken of a vector as G^T v. Rows
-/// of axes about which the body does not turn are zero.
+/// A lower triangular G with G G^T = m / 2 for an inverse inertia m. of(v) returns G^T v. Rows of
+/// axes about which the body does not turn are zero.
 class RootOfHalf {
 public:
     explicit RootOfHalf(const glm::dmat3& m)

@@ -10,7 +10,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// The angular velocity in the world's frame of a body that lies so.
+/// Returns the angular velocity, in the world's frame, of a body in this orientation.
 glm::dvec3 angular_velocity(const glm::dquat& orientation, const FreeRotation& spin)
 {
     const glm::dmat3 axes = axes_of(orientation);
@@ -68,8 +68,8 @@ glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to)
 {
     glm::dquat by = to * glm::conjugate(from);
     if (by.w < 0.0) by = -by;
-    // The root of a unit quaternion turns half as far: after four the series for the arc sine has
-    // at most pi/32 to deal with.
+    // The root of a unit quaternion turns half as far. After four roots the series for the arc sine
+    // has an argument of at most pi/32.
     double times = 2.0;
     for (int root = 0; root < 4; ++root) {
         by = glm::dquat{1.0 + by.w, by.x, by.y, by.z};
@@ -86,8 +86,8 @@ glm::dvec3 turn_between(const glm::dquat& from, const glm::dquat& to)
 
 namespace {
 
-/// The rotation about the angular momentum that belongs to the spin along it. It keeps the energy
-/// of any body exactly, and leaves its nutation out.
+/// Returns the rotation about the angular momentum with the spin's part along it. It keeps the
+/// energy of any body exactly, and omits the body's nutation.
 glm::dquat precessed(const glm::dquat& orientation, const FreeRotation& spin, double time)
 {
     const glm::dvec3& momentum = spin.angular_momentum;
@@ -97,7 +97,7 @@ glm::dquat precessed(const glm::dquat& orientation, const FreeRotation& spin, do
     return rotated(orientation, (time * along) * momentum);
 }
 
-/// One step of the midpoint rule, brought back to the energy that there was.
+/// Makes one step of the midpoint rule, corrected to the initial energy.
 glm::dquat midpoint_step(const glm::dquat& orientation, const FreeRotation& spin, double time)
 {
     const glm::dvec3 first = angular_velocity(orientation, spin);
@@ -112,7 +112,7 @@ glm::dquat midpoint_step(const glm::dquat& orientation, const FreeRotation& spin
 std::optional<glm::dquat> with_energy(const glm::dquat& orientation, const FreeRotation& spin,
                                       double energy)
 {
-    // Newton's method across the level curves of the energy L w / 2 doubles its digits with each
+    // Newton's method across the level curves of the energy L w / 2 doubles its digits in each
     // round.
     constexpr int rounds_max = 5;
     constexpr double flat = 1e-9, far = 0.1;                // radians

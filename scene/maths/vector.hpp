@@ -13,19 +13,19 @@ namespace hapnet::scene {
 /// Returns the length by a correctly rounded square root: the same bits everywhere.
 [[nodiscard]] inline double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
-/// The sum of the components' sizes: not less than the length, and no root to take.
+/// Returns the sum of the components' sizes. It is not less than the length, and needs no root.
 [[nodiscard]] inline double sum_of_sizes(const glm::dvec3& v)
 {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-/// The absolute value of each component. Unlike glm's abs, it costs no compares.
+/// Returns the absolute value of each component. Unlike glm's abs, it costs no comparisons.
 [[nodiscard]] inline glm::dvec3 sizes(const glm::dvec3& v)
 {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// A unit vector along x (0), y or z.
+/// Returns a unit vector along x (0), y (1) or z (2).
 [[nodiscard]] inline glm::dvec3 axis_of_world(int axis)
 {
     glm::dvec3 direction{0.0};
@@ -33,13 +33,13 @@ namespace hapnet::scene {
     return direction;
 }
 
-/// True if no component is larger than `most` or NaN.
+/// True if no component is larger in size than `most` or NaN.
 [[nodiscard]] inline bool is_within(const glm::dvec3& v, double most)
 {
     return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
-/// One number per axis: x, y, z. Unlike a glm vector's, its index costs no branch.
+/// One number per axis: x, y, z. Unlike an index into a glm vector, its index costs no branch.
 using PerAxis = std::array<double, 3>;
 
 [[nodiscard]] inline PerAxis per_axis(const glm::dvec3& v) { return {v.x, v.y, v.z}; }

@@ -19,7 +19,7 @@ double stored_at(const HandDescription& hands, double depth)
                         : hands.force_max_n * (depth - 0.5 * bend);
 }
 
-/// True if the box is at a face and moves into it.
+/// True if the box is at a face of an obstacle and moves into it.
 bool enters_obstacle(const BoxMotion& box, std::size_t axis, double speed)
 {
     const AxisMotion& motion = box.axes[axis];
@@ -54,7 +54,7 @@ public:
         return v;
     }
 
-    /// True if the box has no more energy than it had and was given.
+    /// True if the box has no more energy than it had plus the energy that it was given.
     [[nodiscard]] bool holds(double share) const
     {
         constexpr double tolerated = 1e-7; // share of the energy that is there
@@ -77,7 +77,7 @@ public:
         return has - had - work - given_by_hands(share, fastest) <= slack;
     }
 
-    /// The greatest impulse of a hand, as a multiple of what it may give.
+    /// Returns the greatest force of a hand, as a multiple of its limit.
     [[nodiscard]] double excess() const
     {
         double excess = 0.0;
@@ -90,9 +90,10 @@ public:
     }
 
 private:
-    /// A hand gives what its spring has stored and the work of its own motion. One that holds, no
-    /// more than its impulse can at twice the speed that the box is seen to have: its spring also
-    /// pulls, and can give and take far more than that within a tick.
+    /// Returns the energy that the hands give: the energy that their springs have stored and the
+    /// work of their own motion. A hand that holds gives no more than its impulse can give at twice
+    /// the known speed of the box. Its spring also pulls, so within a tick it can give and take far
+    /// more than that.
     [[nodiscard]] double given_by_hands(double share, double fastest) const
     {
         double given = 0.0;
@@ -123,7 +124,7 @@ private:
     bool is_touched_ = false;
 };
 
-/// The greatest share, nearly, with which the balance holds: it does at 0.
+/// Returns nearly the greatest share with which the balance holds. It always holds at 0.
 double share_that_holds(const Balance& balance)
 {
     constexpr int halvings = 40;

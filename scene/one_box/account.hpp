@@ -15,11 +15,12 @@ struct TickStart {
     double stored = 0.0; // J, in the springs of hands that hold the box
 };
 
-/// The last line, for ticks that are not exact to rounding throughout. Where the box has gained
-/// more energy than gravity, pushes, the hands' springs and the hands' own motion gave, or a hand
-/// has given more than its greatest force can in a tick, all impulses of the tick are taken by one
-/// share, which takes the velocity towards that without them; what the hands report is of the same
-/// share. Such a share always exists: the gain is a convex function of it, and not above 0 at 0.
+/// Corrects a tick that is not exact to rounding throughout, as a last safeguard. It acts where the
+/// box has gained more energy than gravity, pushes, the hands' springs and the hands' own motion
+/// gave, or where a hand has given more than its greatest force can give in a tick. Then all
+/// impulses of the tick are scaled by one share, so that the velocity moves towards the one without
+/// impulses. The hands report the scaled impulses. Such a share always exists: the gain is a convex
+/// function of it, and not above 0 at 0.
 void settle(const WorldConfig& config, WorldState& state, const TickStart& start, BoxMotion& box);
 
 } // namespace hapnet::scene

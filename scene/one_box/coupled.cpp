@@ -8,7 +8,8 @@ namespace {
 
 using Matrix = std::array<PerAxis, 3>;
 
-/// Returns the number of springs that hold each pair of moving axes.
+/// Returns how the springs couple each pair of moving axes. Springs along an axis count on the
+/// diagonal; slanted springs add the products of their normals' components.
 Matrix springs_between_axes(const BoxMotion& box)
 {
     Matrix sum{};
@@ -27,7 +28,8 @@ Matrix springs_between_axes(const BoxMotion& box)
     return sum;
 }
 
-/// Turns the matrix so that it has nothing at (p, q), and the basis with it: Jacobi's rotation.
+/// Turns the matrix so that its entry (p, q) becomes zero, and turns the basis with it: Jacobi's
+/// rotation.
 void rotate(Matrix& matrix, Matrix& basis, std::size_t p, std::size_t q)
 {
     const double between = matrix[p][q];

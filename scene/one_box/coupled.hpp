@@ -6,10 +6,10 @@
 
 namespace hapnet::scene {
 
-// The box's place within an interval, for axes that move on their own and for axes that slanted
-// springs couple.
+// The box's motion within an interval, for independent axes and for axes that slanted springs
+// couple.
 
-/// Finds the modes of the axes that move, except the trajectories of the modes.
+/// Finds the modes of the axes that move, but not the trajectories of the modes.
 void find_modes(BoxMotion& box);
 /// Sets the trajectories of the modes from those of the axes.
 void set_modes(BoxMotion& box);
@@ -41,7 +41,8 @@ void set_coupled_bounds(BoxMotion& box);
     return sum;
 }
 
-/// The first root of a quantity of the axes, in [from, to); counted in the budget of the tick.
+/// Returns the first root of a quantity of the axes, in [from, to). The search counts in the budget
+/// of the tick.
 [[nodiscard]] RootSearch search_root(const BoxMotion& box, const WatchedQuantity& watched,
                                      double from, double to);
 

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = Event::Kind;
 
-/// `factor` times a spring's depth.
+/// Returns `factor` times a spring's depth, as a quantity to watch.
 template <typename AnySpring>
 WatchedQuantity watch_depth(const AnySpring& spring, double factor)
 {
@@ -21,7 +21,7 @@ WatchedQuantity watch_depth(const AnySpring& spring, double factor)
     return watch;
 }
 
-/// `factor` times what a spring's force is without limits, plus `level`.
+/// Returns `factor` times a spring's force without limits, plus `level`, as a quantity to watch.
 template <typename AnySpring>
 WatchedQuantity watch_tension(const BoxMotion& box, const AnySpring& spring, double factor,
                               double level)
@@ -35,11 +35,11 @@ WatchedQuantity watch_tension(const BoxMotion& box, const AnySpring& spring, dou
     return watch;
 }
 
-/// A spring's force without limits, how fast it changes, and how fast that can.
+/// A spring's force without limits, its rate, and the bound of that rate's change.
 struct Tension {
     double force, rate, bend;
     double closing;      // m/s
-    double acceleration; // m/s^2: the most that the depth can accelerate
+    double acceleration; // m/s^2: bound of the acceleration of the depth
 
     template <typename AnySpring>
     Tension(const BoxMotion& box, const AnySpring& spring)
@@ -68,7 +68,7 @@ bool keeps_acting(const BoxMotion& box, const AnySpring& spring, double time)
     return tension.force >= change && box.hands.force_max_n - tension.force >= change;
 }
 
-/// `kind` says to which springs it belongs.
+/// Finds the events of springs. `kind` is the kind of the springs.
 template <typename AnySpring>
 struct SpringEventFinder {
     const BoxMotion& box;
@@ -159,7 +159,8 @@ bool is_out_of_reach(const BoxMotion& box, const Obstacle& obstacle)
 
 constexpr std::size_t nothing = 3;
 
-/// The axis that keeps a box away from an obstacle at some moment: the one with the widest gap.
+/// Returns the axis that keeps a box away from an obstacle at some moment: the one with the widest
+/// gap.
 std::size_t separating_axis(const BoxMotion& box, const Obstacle& obstacle, double time,
                             std::size_t but)
 {
@@ -182,7 +183,8 @@ std::size_t separating_axis(const BoxMotion& box, const Obstacle& obstacle, doub
     return widest;
 }
 
-/// The box touches an obstacle when the last of the three axes has closed its gap.
+/// Finds the impact of the box on an obstacle, at which the last of the three axes has closed its
+/// gap.
 void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
 {
     constexpr int rounds_max = 8; // an axis may open its gap again while another closes
@@ -211,7 +213,8 @@ void find_impact(const BoxMotion& box, const Obstacle& obstacle, Event& first)
     if (axis != nothing) first = {.time = time, .kind = Kind::unknown};
 }
 
-/// An axis loses its support when other forces lift it off, or behind its edge.
+/// Finds the moment at which an axis loses its support: when other forces lift it off, or behind
+/// the support's edge.
 void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
 {
     const AxisMotion& axis = box.axes[i];
@@ -233,8 +236,8 @@ void find_loss_of_support(const BoxMotion& box, std::size_t i, Event& first)
     }
 }
 
-/// Stops the box or sends it back. A bounce that would be over before a tick has passed is left
-/// out: otherwise a box would come to rest by endlessly many.
+/// Stops the box or reverses its velocity. A bounce that would be over within a tick is left out.
+/// Otherwise a box would come to rest by endlessly many bounces.
 void handle_impact(BoxMotion& box, const Event& event, double tick)
 {
     const std::size_t i = event.axis;
@@ -245,7 +248,8 @@ void handle_impact(BoxMotion& box, const Event& event, double tick)
     box.velocity[i] = is_over ? 0.0 : event.side * back;
 }
 
-/// Where the velocity jumps, the dampers' forces jump too.
+/// Updates the springs' phases after a jump of the velocity, at which the dampers' forces jump,
+/// too.
 void update_phases(BoxMotion& box)
 {
     if (box.hands.damping_ns_per_m == 0.0) return;

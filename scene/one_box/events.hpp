@@ -10,7 +10,7 @@ namespace hapnet::scene {
 struct Event {
     enum class Kind : std::uint8_t {
         none,   // nothing before the end of the tick
-        spring, // a hand's spring comes into another phase
+        spring, // a hand's spring enters another phase
         slanted_spring,
         impact,    // the box arrives at a fixed box or a plane
         unloading, // the box no longer presses on its support
@@ -24,26 +24,27 @@ struct Event {
     std::uint32_t spring = 0;               // index of the spring among those of its kind
     SpringPhase phase = SpringPhase::apart; // next phase of the spring
     std::size_t axis = 0;                   // axis of an impact, an unloading or an edge
-    double face = 0.0;                      // where the centre is at an impact or an edge
+    double face = 0.0;                      // position of the centre at an impact or an edge
     double side = 0.0;                      // at an impact: +1 at a high face, -1 at a low one
     const Obstacle* obstacle = nullptr;     // the obstacle of an impact
 };
 
-/// True if nothing but dry friction can end the interval before the tick does. That is nearly
+/// True if nothing but dry friction can end the interval before the end of the tick. That is nearly
 /// always so, and quick to find out.
 [[nodiscard]] bool is_uneventful(const BoxMotion& box);
-/// The first event in the rest of the tick, if it comes before `first`.
+/// Replaces `first` by the first event in the rest of the tick, if that comes before `first`.
 void find_event(const BoxMotion& box, Event& first);
-/// Takes the root of a watched quantity as the event `what`, if it comes before `first`. Where the
-/// search for the root was given up, that becomes an event. Returns true if there is a root.
+/// Replaces `first` by the event `what` at the root of a watched quantity, if the root comes before
+/// `first`. Where the search for the root was given up, that becomes an event. Returns true if
+/// there is a root.
 bool expect(const BoxMotion& box, const WatchedQuantity& watch, double from, Event& first,
             const Event& what);
-/// The acceleration that presses an axis on its support, while slanted springs couple it to the
-/// others.
+/// Returns the quantity to watch for an axis that rests on its support while slanted springs couple
+/// it to the other axes: the acceleration that presses it on the support.
 [[nodiscard]] WatchedQuantity watch_load(const BoxMotion& box, std::size_t axis);
 
-/// Applies the event to the box, once the box has been advanced to its moment. `tick` is the length
-/// of the whole tick.
+/// Applies the event to the box. The box must have been advanced to the moment of the event. `tick`
+/// is the length of the whole tick.
 void handle_event(BoxMotion& box, const Event& event, double tick);
 
 } // namespace hapnet::scene

@@ -26,7 +26,7 @@ struct Tangential {
     [[nodiscard]] std::span<const std::size_t> axes() const { return {all.data(), count}; }
 };
 
-/// The motion of the axes that nothing but friction holds.
+/// Returns the motion of the axes that only friction can hold.
 Tangential tangential(const BoxMotion& box)
 {
     Tangential found;
@@ -67,7 +67,8 @@ void oppose(BoxMotion& box, const Tangential& free, const PerAxis& direction)
     }
 }
 
-/// The direction in the middle of what is left of the tick, found with the one at its start.
+/// Returns the direction in the middle of the remaining tick, found with the direction at its
+/// start.
 PerAxis direction_halfway(BoxMotion& box, const Tangential& free, const PerAxis& direction)
 {
     oppose(box, free, direction);
@@ -79,7 +80,7 @@ PerAxis direction_halfway(BoxMotion& box, const Tangential& free, const PerAxis&
     return unit(middle);
 }
 
-/// Sums up the limits of friction by the loads on the supports. Returns true if there is any
+/// Sums up the limits of friction from the loads on the supports. Returns true if there is any
 /// friction.
 bool load(BoxMotion& box)
 {
@@ -94,7 +95,7 @@ bool load(BoxMotion& box)
 }
 
 /// Finds the load on the supports, and the direction of sliding, in the middle of the rest of the
-/// tick, where slanted springs couple both to all motion.
+/// tick. It is needed where slanted springs couple both to all motion.
 void set_friction_halfway(BoxMotion& box, const Tangential& free)
 {
     DryFriction& dry_friction = box.dry_friction;
@@ -165,7 +166,7 @@ void add_friction(BoxMotion& box)
 
 namespace {
 
-/// Finds when limit(t)^2 - |push(t)|^2 falls to 0. Limit and push are linear.
+/// Finds the time when limit(t)^2 - |push(t)|^2 falls to 0. Limit and push are linear in time.
 void find_slip(const BoxMotion& box, Event& first)
 {
     const DryFriction& dry_friction = box.dry_friction;

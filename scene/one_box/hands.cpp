@@ -10,15 +10,15 @@ namespace {
 
 double largest(const PerAxis& a) { return std::max(std::max(a[0], a[1]), a[2]); }
 
-/// The distance of a place outside of a box along each axis; < 0: inside.
+/// Returns the distance of a place outside of a box along each axis; < 0: inside.
 PerAxis beyond(const PerAxis& from_centre, const PerAxis& half)
 {
     return {std::abs(from_centre[0]) - half[0], std::abs(from_centre[1]) - half[1],
             std::abs(from_centre[2]) - half[2]};
 }
 
-/// The axis along which a place is outside of a box, by less than `reach`; no_axis when it is
-/// inside, farther away, or outside along more than one.
+/// Returns the axis along which a place is outside of a box, by less than `reach`. Returns no_axis
+/// when the place is inside, farther away, or outside along more than one axis.
 std::size_t face_axis(const PerAxis& out, double reach)
 {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -41,14 +41,14 @@ PerAxis difference(const glm::dvec3& a, const PerAxis& b)
     return {a.x - b[0], a.y - b[1], a.z - b[2]};
 }
 
-/// One part of a vector.
+/// Returns one component of a vector.
 template <typename Vector>
 auto& part(Vector& v, std::size_t axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// A hand that holds with the same force throughout the tick.
+/// Applies the grip of a hand that holds with the same force throughout the tick.
 void apply_constant_grip(HandTouch& touch, BoxMotion& box, base::Force force)
 {
     touch.on_body = force;
@@ -176,7 +176,7 @@ inline void BoxHands::collide_box(const WorldConfig& config, WorldState& state, 
     const PerAxis out = beyond(from_centre, half_);
     const std::size_t axis = face_axis(out, radius);
     FaceContact found{index, {}, 0.0};
-    if (axis != no_axis) { // nearly always so when the hand pushes
+    if (axis != no_axis) { // as nearly always when the hand pushes
         found.face = memory_[index].entered = face_at(axis, from_centre[axis]);
         found.depth = radius - out[axis];
     } else {
@@ -281,7 +281,7 @@ void BoxHands::add_held_springs(BoxMotion& box)
             bend += normal[i] * box.axes[i].acceleration;
             ease += normal[i] * normal[i] * box.oscillators.inverse_mass();
         }
-        // depth and closing speed in the middle: linear in the force that acts meanwhile.
+        // depth and closing speed in the middle are linear in the force that acts meanwhile.
         const double answer =
             hands.stiffness_n_per_m * half_tick * half_tick + hands.damping_ns_per_m * half_tick;
         const double depth = spring.depth + half_tick * closing;

@@ -11,14 +11,15 @@
 
 namespace hapnet::scene {
 
-/// A hand at a face of the box; at none: it does not touch, or at an edge or a corner.
+/// A hand at a face of the box. Without a face the hand does not touch, or is at an edge or a
+/// corner.
 struct FaceContact {
     std::uint32_t hand = 0;
     BoxFace face;
     double depth = 0.0;
 };
 
-/// The hands at the box and at the fixed boxes, and what the next tick has to know of them.
+/// The hands' contacts with the box and the fixed boxes, and the memory that the next tick needs.
 class BoxHands {
 public:
     BoxHands(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
@@ -26,19 +27,19 @@ public:
     /// Adds the springs between the hands and the box to `box`. The forces of the fixed boxes on
     /// the hands are reported at once.
     void collide(const WorldConfig& config, WorldState& state, BoxMotion& box);
-    /// Adds the forces of soft springs at edges and corners, once the trajectories of the axes are
-    /// known. Midpoint rule: second order, and it neither makes nor loses energy.
+    /// Adds the forces of soft springs at edges and corners. Call it when the trajectories of the
+    /// axes are known. Midpoint rule: second order, and it neither makes nor loses energy.
     static void add_held_springs(BoxMotion& box);
-    /// True if a hand held with more than its greatest force in the tick that `box` has run. Then
-    /// `again`, the tick before it ran, has that force held throughout instead.
+    /// True if a hand's grip exceeded its greatest force in the tick that `box` has run. Then
+    /// `again`, the tick before it ran, gets that greatest force for the whole tick instead.
     static bool limit_grip(const WorldConfig& config, WorldState& state, const BoxMotion& box,
                            BoxMotion& again);
-    /// Reports what the springs did in the tick.
+    /// Reports the forces of the springs in the tick to the hands.
     static void report(const WorldConfig& config, WorldState& state, const BoxMotion& box);
-    /// The energy stored in the springs of the hands that hold the box, J.
+    /// Returns the energy stored in the springs of the hands that hold the box, J.
     [[nodiscard]] double stored_in_grips(const WorldConfig& config, const WorldState& state,
                                          const PerAxis& box_position) const;
-    /// The box has been put somewhere else.
+    /// Forgets the hands' contacts after the box was put elsewhere.
     void forget_box();
 
 private:
@@ -70,15 +71,15 @@ private:
                   std::uint32_t index);
     void collide_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
                      std::uint32_t index);
-    /// The general case, beyond a hand straight in front of a face. Hands at edges and corners are
-    /// added to `box`; what pushes a face is returned.
+    /// Handles the general case: all but a hand straight in front of a face. Adds hands at edges
+    /// and corners to `box`. Returns the contact of a hand that pushes a face.
     FaceContact collide_near_box(const WorldConfig& config, WorldState& state, BoxMotion& box,
                                  std::uint32_t index);
     void collide_fixed_boxes(const WorldConfig& config, WorldState& state, std::uint32_t index);
 
     BodyId body_;
     PerAxis half_;
-    double margin_; // how far the box may come in a tick beyond what the speeds at its start say
+    double margin_; // m: how far the box may move in a tick beyond its speeds at the start
     std::vector<FixedBox> fixed_;
     std::vector<BoxFace> entered_fixed_; // by hand, then by box
     std::array<Memory, hands_max> memory_{};

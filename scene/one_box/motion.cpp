@@ -8,7 +8,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// True if a centre is between the two faces of an obstacle, or just going in.
+/// True if a centre is between the two faces of an obstacle, or about to enter.
 bool is_between(const Obstacle& obstacle, std::size_t axis, double place, double speed)
 {
     const double gap = obstacle.gap(axis, place);
@@ -38,8 +38,8 @@ void note_touched_faces(BoxMotion& box, const Obstacle& obstacle)
     }
 }
 
-/// Sets the support and the load of an axis that rests on an obstacle, if accelerations press it on
-/// that.
+/// Sets the support and the load of an axis at an obstacle, if accelerations press it on the
+/// obstacle.
 void find_support(AxisMotion& axis, double speed, double push, double ramp)
 {
     if (speed != 0.0 || axis.is_losing_support) return;
@@ -56,7 +56,7 @@ void find_support(AxisMotion& axis, double speed, double push, double ramp)
 }
 
 /// Finds the supports of all axes. Returns true if one of them is a plane whose drag acts. `push`
-/// gives the acceleration along an axis.
+/// returns the acceleration along an axis.
 template <typename Push>
 bool find_supports(BoxMotion& box, const Push& push)
 {
@@ -72,7 +72,7 @@ bool find_supports(BoxMotion& box, const Push& push)
     return is_on_plane;
 }
 
-/// Adds the hands' springs; how many there are on each axis.
+/// Adds the hands' springs. Returns how many there are on each axis.
 std::array<std::size_t, 3> add_springs(BoxMotion& box)
 {
     const auto [damping, stiffness] = box.oscillators.spring();
@@ -98,8 +98,8 @@ std::array<std::size_t, 3> add_springs(BoxMotion& box)
     return count;
 }
 
-/// Adds the springs at edges and corners; whether one presses. `damped` is what a damper adds
-/// along an axis that does not move, because the others do.
+/// Adds the springs at edges and corners. Returns true if one presses. `damped` gets the force that
+/// a damper adds along an axis that does not move, because the others do.
 bool add_slanted_springs(BoxMotion& box, PerAxis& damped)
 {
     const auto [damping, stiffness] = box.oscillators.spring();
@@ -123,7 +123,7 @@ bool add_slanted_springs(BoxMotion& box, PerAxis& damped)
     return any;
 }
 
-/// The outcome of a trajectory: its way, and the integral of that over time where a spring holds
+/// The outcome of a trajectory: the displacement, and its integral over time where a spring holds
 /// it.
 struct Way {
     TrajectoryPoint end;
@@ -143,7 +143,7 @@ Way way_of(const Trajectory& trajectory, double time)
     return way;
 }
 
-/// The ways of the axes, and their integrals over time.
+/// The displacements of the axes, and their integrals over time.
 struct AxisWays {
     PerAxis way{};
     PerAxis integral{};
@@ -214,7 +214,8 @@ void advance_grip(const BoxMotion& box, GripSpring& grip, double time, const Axi
     }
 }
 
-/// Advances the box and all springs, also those that only ticks without an exact solution have.
+/// Advances the box and all springs, also the kinds that occur only in ticks without an exact
+/// solution.
 void advance_all(BoxMotion& box, double time)
 {
     const AxisWays ways = box.is_coupled ? advance_coupled(box, time) : advance_axes(box, time);
@@ -283,7 +284,7 @@ void set_trajectories(BoxMotion& box)
         box.spring_counts = springs;
         const auto push = [&](std::size_t i) { return box.trajectories[i].push + damped[i]; };
         is_on_plane = find_supports(box, push);
-        for (std::size_t i = 0; i < 3; ++i) { // coupled, those move that would not on their own
+        for (std::size_t i = 0; i < 3; ++i) { // coupled, some axes move that would not move alone
             if (box.is_coupled && !box.axes[i].is_held())
                 box.trajectories[i].propagator = &box.oscillators.of(springs[i], is_on_plane);
         }

@@ -13,7 +13,7 @@
 
 namespace hapnet::scene {
 
-/// The oscillators that an axis can be: with any number of springs, with or without drag.
+/// The possible oscillators of an axis: with any number of springs, with or without drag.
 class AxisOscillators {
 public:
     AxisOscillators(const HandDescription& hands, const BodyProperties& body, double tick);
@@ -52,10 +52,10 @@ struct AxisMotion {
     Bounds bounds;       // for the rest of the tick
     double reach;        // how far the box can go along the axis in the rest of the tick
 
-    /// True if something else than dry friction keeps the box where it is along the axis.
+    /// True if something other than dry friction keeps the box where it is along the axis.
     [[nodiscard]] bool is_held() const { return is_stopped || support; }
     /// True if a plane slows the box by its drag. A box that is locked onto a plane cannot be
-    /// lifted off the plane, whatever pulls.
+    /// lifted off the plane, whatever pulls it.
     [[nodiscard]] bool is_dragged() const
     {
         if (!is_locked) return support && support->is_plane;
@@ -82,12 +82,12 @@ struct Spring {
     SpringPhase phase;
     double impulse; // so far in the tick, N s, >= 0
 
-    /// `speed` is the box's along the normal.
+    /// Returns the force without its limits. `speed` is the box's along the normal.
     [[nodiscard]] double tension(const HandDescription& hands, double speed) const
     {
         return hands.stiffness_n_per_m * depth + hands.damping_ns_per_m * (closing + speed);
     }
-    /// Takes the phase that belongs to the present state; returns the force.
+    /// Sets the phase that belongs to the present state. Returns the force.
     double update_phase(const HandDescription& hands, double speed)
     {
         phase = SpringPhase::apart;
@@ -106,16 +106,17 @@ struct FaceSpring : Spring {
     std::size_t axis;
     double sign; // sign of the normal along `axis`, from the box to the hand
 
-    /// A vector's part along the normal.
+    /// Returns a vector's part along the normal.
     [[nodiscard]] double along(const PerAxis& v) const { return sign * v[axis]; }
     void add_along(PerAxis& v, double size) const { v[axis] += size * sign; }
-    /// The part along the normal of a vector whose components a function gives.
+    /// Returns the part along the normal of a vector whose components `component` returns.
     template <typename Component>
     [[nodiscard]] double along_each(const Component& component) const
     {
         return sign * component(axis);
     }
-    /// The greatest possible part along the normal of a vector whose components have these sizes.
+    /// Returns the greatest possible part along the normal of a vector whose components have these
+    /// sizes.
     template <typename Size>
     [[nodiscard]] double most_along(const Size& size) const
     {
@@ -144,8 +145,8 @@ struct SlantedSpring : Spring {
     }
 };
 
-/// A soft spring at an edge or a corner: its force is the midpoint rule's, held for the tick, which
-/// costs less than the closed form and is as good while the spring is soft.
+/// A soft spring at an edge or a corner. Its force follows the midpoint rule and is held for the
+/// tick. That costs less than the closed form and is as accurate while the spring is soft.
 struct HeldSpring {
     std::uint32_t hand;
     PerAxis normal; // unit, from the box to the hand
@@ -162,26 +163,27 @@ struct GripSpring {
     PerAxis impulse; // on the box, so far in the tick
 };
 
-/// The axes as slanted springs couple them. All hands are equal and drag is the same along every
-/// axis, so that mass, damping and stiffness are diagonal in the same basis, the eigenvectors of
-/// the sum of n n^T over the springs: each mode is an oscillator of its own, however many springs
-/// press.
+/// The modes of the axes when slanted springs couple them. All hands are equal and drag is the same
+/// along every axis, so mass, damping and stiffness are diagonal in the same basis: the
+/// eigenvectors of the sum of n n^T over the springs. So each mode is an independent oscillator,
+/// however many springs press.
 struct CoupledAxes {
     std::array<PerAxis, 3> direction; // direction of each mode, unit
     Trajectories modes;
     std::array<Propagator, 3> propagators;
 };
 
-/// Memory that a tick needs only if something happens in it.
+/// Memory that a tick needs only if an event or a slanted spring occurs in it.
 struct TickRoom {
     CoupledAxes coupled; // valid only while BoxMotion::is_coupled
     int root_steps = 0;  // steps left for the searches for events
 };
 
-/// A box within a tick. Events cut the tick into intervals; in each of them every axis follows a
+/// A box within a tick. Events cut the tick into intervals. In each interval every axis follows a
 /// closed form.
 struct BoxMotion {
-    // Without values until they are set: clearing all of them would cost more than the tick.
+    // Members have no values until they are set: clearing all of them would cost more than the
+    // tick.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     BoxMotion(const HandDescription& of_hands, const AxisOscillators& of_oscillators,
               Obstacles& those, TickRoom& for_tick)
@@ -196,7 +198,7 @@ struct BoxMotion {
     Obstacles& obstacles;
     TickRoom& room;
     std::span<const std::uint32_t> nearby{};
-    double clearance = 0.0; // how far the box may go until something else is near
+    double clearance = 0.0; // how far the box may move until something else is near
 
     double time_left = 0.0;  // of the tick, s
     bool is_exact = true;    // exact up to rounding, as is every tick without slanted springs,
@@ -244,8 +246,9 @@ struct BoxMotion {
     }
 };
 
-/// Finds what the box touches, what carries it, and the courses of its axes for the next stretch;
-/// then add_friction() where there is any, then set_bounds().
+/// Finds the obstacles that the box touches, the one that supports it, and the trajectories of its
+/// axes for the next interval. Call add_friction() next where there is friction, and then
+/// set_bounds().
 void set_trajectories(BoxMotion& box);
 void set_bounds(BoxMotion& box);
 

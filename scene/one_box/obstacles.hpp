@@ -13,7 +13,7 @@
 namespace hapnet::scene {
 
 /// The region that one fixed box or plane closes to a box's centre: the obstacle, grown by the half
-/// edges of the box. A plane reaches to infinity in all directions but one.
+/// edges of the box. The region of a plane reaches to infinity in all directions but one.
 struct Obstacle {
     PerAxis low{};
     PerAxis high{};
@@ -21,12 +21,13 @@ struct Obstacle {
     bool is_plane = false;
     std::size_t normal_axis = 0; // axis of the normal, if it is a plane
 
-    /// The distance of a centre outside of it along an axis; < 0: between its two faces.
+    /// Returns the distance along an axis of a centre outside the region; < 0: between its two
+    /// faces.
     [[nodiscard]] double gap(std::size_t axis, double place) const
     {
         return std::max(low[axis] - place, place - high[axis]);
     }
-    /// +1 when the centre is nearer to the high face, else -1.
+    /// Returns +1 when the centre is nearer to the high face, else -1.
     [[nodiscard]] double side(std::size_t axis, double place) const
     {
         return place - high[axis] >= low[axis] - place ? 1.0 : -1.0;
@@ -37,13 +38,14 @@ struct Obstacle {
     }
 };
 
-/// All obstacles of one movable box. Near ones are kept in a list, in the order of the description;
-/// the rest is looked at again when the box has moved far enough.
+/// All obstacles of one movable box. Near ones are kept in a list, in the order of the description.
+/// The others are examined again when the box has moved far enough.
 class Obstacles {
 public:
     Obstacles(const WorldConfig& config, const Bodies& bodies, const BodyProperties& movable);
 
-    /// The way that the centre may still go before the list of near obstacles has to be made again.
+    /// Returns how far the centre may still move before the list of near obstacles has to be made
+    /// again.
     [[nodiscard]] double clearance(const PerAxis& centre) const
     {
         const double x = std::abs(centre[0] - query_centre_[0]);
@@ -59,8 +61,8 @@ public:
     }
     [[nodiscard]] const Obstacle& operator[](std::uint32_t index) const { return all_[index]; }
 
-    /// Puts the centre out of everything that it is in: to the nearest face of each, along an axis
-    /// that is not locked. Returns true if it was in anything.
+    /// Moves the centre out of every obstacle that it is in: to the obstacle's nearest face, along
+    /// an axis that is not locked. Returns true if the centre was in an obstacle.
     bool push_out(std::span<const std::uint32_t> of_those, PerAxis& centre) const;
 
 private:
@@ -71,7 +73,7 @@ private:
     std::array<bool, 3> locked_{};
     PerAxis query_centre_{};
     double default_margin_ = 0.0;
-    double margin_ = -1.0; // nearby_ leaves out what is farther than this from query_centre_
+    double margin_ = -1.0; // nearby_ omits obstacles that are farther than this from query_centre_
 };
 
 } // namespace hapnet::scene

@@ -12,14 +12,15 @@ namespace {
 
 using Matrix = std::array<PerAxis, 3>;
 
-/// A force along a spring, and by how much it grows per metre of depth.
+/// A force along a spring, and its growth per metre of depth.
 struct Push {
     double force = 0.0;
     double slope = 0.0;
 };
 
-/// The force of a spring and damper in the mean over a change of depth at constant speed: what the
-/// spring stores more, per metre, so that it gives back what it took.
+/// Returns the mean force of a spring and damper over a change of depth at constant speed. It is
+/// the change of the stored energy per metre, so that the spring gives back the energy that it
+/// took.
 Push mean_push(const HandDescription& hands, double from, double to, double time)
 {
     const double k = hands.stiffness_n_per_m;
@@ -69,8 +70,8 @@ PerAxis solve(Matrix a, PerAxis b)
     return b;
 }
 
-/// The step: by how far the box comes. Its equation, that momentum changes by the impulses, is the
-/// gradient of a convex function.
+/// The step, which finds the displacement of the box. Its equation, that momentum changes by the
+/// impulses, is the gradient of a convex function.
 class Step {
 public:
     explicit Step(const BoxMotion& box)
@@ -80,7 +81,7 @@ public:
           drag_{mass_ * box.oscillators.of(0, box.is_on_plane).oscillator.damping}
     {}
 
-    /// An axis comes as far as that and no farther.
+    /// Fixes the displacement of an axis.
     void fix(std::size_t axis, double way)
     {
         is_fixed_[axis] = true;
@@ -115,7 +116,7 @@ public:
         }
     }
 
-    /// Books the impulses and moves the box on; returns the impulse on it.
+    /// Records the impulses and moves the box on. Returns the impulse on it.
     PerAxis commit(BoxMotion& box) const
     {
         PerAxis sum{};
@@ -154,7 +155,7 @@ private:
                box_.hands.damping_ns_per_m * stretched / time_;
     }
 
-    /// Returns the excess of the momentum that a way takes over the impulses, per time.
+    /// Returns the momentum that a displacement takes in excess of the impulses, per time.
     PerAxis excess(const PerAxis& way, Matrix* slope) const
     {
         PerAxis left{};
@@ -188,7 +189,8 @@ private:
         return left;
     }
 
-    /// Returns the share of a change to take: along the change the convex function is lowest there.
+    /// Returns the share of a change to take: the one at which the convex function is lowest along
+    /// the change.
     double share_of(const PerAxis& change, double falls) const
     {
         constexpr int tries_max = 40;
@@ -221,7 +223,7 @@ struct Hit {
     double way; // displacement along that axis to the face
 };
 
-/// Returns where the straight way of a step first meets an obstacle.
+/// Returns where the straight path of a step first meets an obstacle.
 std::optional<Hit> first_hit(const BoxMotion& box, const PerAxis& way)
 {
     std::optional<Hit> first;
@@ -254,7 +256,7 @@ std::optional<Hit> first_hit(const BoxMotion& box, const PerAxis& way)
     return first;
 }
 
-/// Dry friction takes what it can of the speed along the supports.
+/// Applies dry friction, which reduces the speed along the supports as far as it can.
 void rub(BoxMotion& box, const Step& step, const PerAxis& pressing)
 {
     double limit = 0.0; // m/s
@@ -295,7 +297,7 @@ bool finish_tick(BoxMotion& box)
         box.nearby = box.obstacles.nearby(box.position, reach);
         const auto hit = first_hit(box, step.way());
         if (!hit) break;
-        if (tries == tries_max) { // between more faces than that the box stays
+        if (tries == tries_max) { // between more faces than that the box stays where it is
             for (const std::size_t i : {0U, 1U, 2U}) step.fix(i, 0.0);
             is_at_face = {};
             is_stopped = true;

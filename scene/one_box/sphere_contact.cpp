@@ -36,13 +36,13 @@ PerAxis place_after(const SphereMotion& hand, double time)
     return place;
 }
 
-/// A hand that is apart and outside.
+/// Finds the first contact of a hand that is apart and outside.
 std::optional<SphereContact> first_contact(const SphereMotion& hand, const PerAxis& half,
                                            BoxFace& entered)
 {
     const OutsideVector out{hand.from_centre, half};
     const auto found = entry_into_grown_box(hand, half);
-    if (!found) { // the box may still come to the hand
+    if (!found) { // the box may still reach the hand
         if (out.directions > 1) return std::nullopt;
         return contact_at_face(hand.from_centre, half, out.face(), hand.radius);
     }

@@ -10,7 +10,8 @@
 
 namespace hapnet::scene {
 
-/// A hand as a box sees it: from the box's centre, relative to the box's velocity.
+/// A hand in the frame of a box: its place from the box's centre, and its velocity relative to the
+/// box's.
 struct SphereMotion {
     PerAxis from_centre{};
     PerAxis velocity{};
@@ -64,9 +65,10 @@ struct OutsideVector {
 }
 
 /// Finds where a hand's sphere touches a box at the start of the tick, or may touch it within the
-/// tick; nullopt: nowhere. While the sphere's centre is outside, the closest point decides. Inside,
-/// the face through which it came decides; a sphere that is suddenly inside takes the nearest face.
-/// A sphere that is apart meets the face at which it would arrive at its present velocity.
+/// tick. Returns nullopt if it does neither. While the sphere's centre is outside the box, the
+/// box's closest point decides. Inside, the face through which the centre entered decides. A sphere
+/// that is suddenly inside gets the nearest face. A sphere that is still apart gets the face that
+/// it would reach at its present velocity.
 [[nodiscard]] std::optional<SphereContact> collide_sphere(const SphereMotion& hand,
                                                           const PerAxis& half, BoxFace& entered);
 

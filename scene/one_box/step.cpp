@@ -71,7 +71,7 @@ void OneBoxStepper<coulomb>::step(const WorldConfig& config, WorldState& state)
     }
 }
 
-/// Position, velocity and the accelerations that hold for the whole tick: gravity and pushes.
+/// Sets position, velocity and the accelerations that hold for the whole tick: gravity and pushes.
 template <bool coulomb>
 inline void OneBoxStepper<coulomb>::set_start(const WorldConfig& config, const WorldState& state,
                                               BoxMotion& box)
@@ -106,7 +106,7 @@ template <bool coulomb>
 void OneBoxStepper<coulomb>::solve_with_grips(const WorldConfig& config, WorldState& state,
                                               BoxMotion& start)
 {
-    for (;;) { // each time a hand holds less: no more often than there are hands
+    for (;;) { // once more for each hand whose grip is limited
         BoxMotion box = start.copy();
         query_obstacles(box, 0.0); // the last try may have moved the list elsewhere
         run_events(config, state, box);
@@ -212,7 +212,7 @@ void OneBoxStepper<coulomb>::run_events(const WorldConfig& config, WorldState& s
     }
 }
 
-/// Adds what carries the box for a time to what its obstacles give it.
+/// Adds the impulse of the box's supports over a time to the impulse of its obstacles.
 template <bool coulomb>
 void OneBoxStepper<coulomb>::add_support(const BoxMotion& box, double time)
 {
@@ -230,7 +230,7 @@ glm::dvec3 OneBoxStepper<coulomb>::contact_impulse(const WorldConfig& config,
 {
     const double mass = 1.0 / oscillators_.inverse_mass();
     if (was_eventful_) return mass * vector(contact_momentum_);
-    // Nothing began or ended: what stood still was in balance.
+    // No contact began or ended, so axes that stood still were in balance.
     glm::dvec3 given = mass * config.gravity;
     if (was_pushed_) given += last_push_;
     for (std::uint32_t hand = 0; hand < config.hands.count; ++hand)

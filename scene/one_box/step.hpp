@@ -9,21 +9,20 @@
 
 namespace hapnet::scene {
 
-/// One movable box that cannot rotate, among fixed boxes and planes parallel to it: every axis is a
-/// scalar motion with a closed form, and what begins or ends within a tick is found in it. With
-/// `coulomb`, dry friction on what supports the box.
+/// One movable box that cannot rotate, among fixed boxes and planes parallel to it. Every axis is a
+/// scalar motion with a closed form, and contacts that begin or end within a tick do so at their
+/// exact moments. With `coulomb`, the box's supports have dry friction.
 ///
-/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box or it is
-/// locked onto one); hands
-/// on faces and hands that hold, any number, with their beginning, end and limit of force at their
-/// moments; impacts and bounces at theirs; dry friction along a straight path, with its exact stop
-/// and slip; hands at edges and corners while their normals hold, which is for a tick. Second order
-/// in the tick: dry friction while other forces bend the path or change the load; the normals.
-/// First order: a hand that holds at its greatest force, at the start of a tick or in the mean over
-/// it: that force is held throughout.
+/// Exact up to rounding: flight; drag on a plane (along it, while a plane supports the box or the
+/// box is locked onto one); any number of hands on faces and of hands that hold, with the moments
+/// at which they begin, end and reach their limit of force; impacts and bounces; dry friction along
+/// a straight path, with its exact stop and slip; hands at edges and corners while their normals
+/// hold, which is for a tick. Second order in the tick: dry friction while other forces bend the
+/// path or change the load; the normals. First order: a hand that holds at its greatest force at
+/// the start of a tick or in the mean over it, since that force is held throughout.
 ///
-/// A bounce that would be over before one tick has passed does not happen. After `events_max`
-/// events in a tick, or `root_steps_max` steps of searching for them, finish_tick() runs the rest.
+/// A bounce that would be over within one tick is left out. After `events_max` events in a tick, or
+/// `root_steps_max` steps of searching for them, finish_tick() runs the rest.
 template <bool coulomb>
 class OneBoxStepper {
 public:
@@ -42,10 +41,10 @@ public:
     void on_body_placed(WorldState& state, BodyId body);
     void on_body_shifted(WorldState& state, BodyId body);
 
-    /// The number of ticks in which there were more events than are followed.
+    /// Returns the number of ticks in which there were more events than are followed.
     [[nodiscard]] std::uint64_t crowded_ticks() const { return crowded_ticks_; }
     /// Returns the impulse that obstacles gave the box in the last tick, N s. It is computed on
-    /// demand. It means something only where there are obstacles: an axis that stands still for
+    /// demand. It is meaningful only where there are obstacles: an axis that stands still for
     /// another reason gets an impulse, too.
     [[nodiscard]] glm::dvec3 contact_impulse(const WorldConfig& config,
                                              const WorldState& state) const;
@@ -56,17 +55,18 @@ private:
     /// Lists the obstacles within `reach`.
     void query_obstacles(BoxMotion& box, double reach);
     void run_events(const WorldConfig& config, WorldState& state, BoxMotion& box);
-    /// Tries the tick with the hands' grips; again with a limited one when it was too strong.
+    /// Runs the tick with the hands' grips. Runs it again with limited grips when one was too
+    /// strong.
     void solve_with_grips(const WorldConfig& config, WorldState& state, BoxMotion& start);
     void commit(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
     void settle_tick(const WorldConfig& config, WorldState& state, BoxMotion& box) const;
-    /// The acceleration by gravity and pushes.
+    /// Returns the acceleration by gravity and pushes.
     [[nodiscard]] PerAxis steady_acceleration(const WorldConfig& config,
                                               const WorldState& state) const;
-    /// The velocity of the box that follows from the forces that the hands report. Stiff hands can
-    /// press so hard against each other that their sum has fewer digits than the velocity of the
-    /// closed form. Where nothing else touches the box, its momentum changes by what it was given,
-    /// to the last digit of that sum.
+    /// Returns the velocity of the box that follows from the forces that the hands report. Stiff
+    /// hands can press so hard against each other that the sum of their forces has fewer digits
+    /// than the velocity of the closed form. Where nothing else touches the box, the change of its
+    /// momentum is the sum of the impulses on it, to the last digit of that sum.
     [[nodiscard]] PerAxis velocity_from_hands(const WorldConfig& config,
                                               const WorldState& state) const;
 

@@ -12,7 +12,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// Returns the inertia of a part that turns freely, in the world.
+/// Returns the inertia of a freely turning part, in the world's frame.
 glm::dmat3 inertia_of(const ClusterPart& part)
 {
     const glm::dmat3& axes = part.box.axes;
@@ -76,7 +76,7 @@ BodyMotion Cluster::motion_of(const ClusterPart& part) const
 
 glm::dvec3 Cluster::angular_momentum_of(const ClusterPart& part) const
 {
-    // A body that turns about one axis of the world turns about the same one of its own.
+    // A body that turns about one axis of the world turns about the same axis of its own.
     if (part.properties.turning != Turning::free) return part.properties.inertia * spin_;
     return inertia_of(part) * spin_;
 }

@@ -18,13 +18,13 @@ struct ClusterPart {
     glm::dvec3 angular_momentum{0.0}; // about the body's centre
 };
 
-/// Movable bodies that stick together, as after an inelastic impact: of all the motions that one
-/// rigid body can have, the one with the same momentum and the same angular momentum. It is the
-/// projection of their motion in the metric of kinetic energy, so energy falls. Where a part is
-/// locked so is the cluster: it keeps the momentum along what is free; it turns about what all
+/// Movable bodies that stick together, as after an inelastic impact. The cluster has the one motion
+/// of a rigid body with the bodies' momentum and angular momentum. That is the projection of the
+/// bodies' motion in the metric of kinetic energy, so energy falls. Where a part is locked, the
+/// cluster is locked: it keeps the momentum along its free axes. It turns only about axes that all
 /// parts may turn about, and not at all when a part is locked along an axis.
 ///
-/// All parts are first counted, for the mass and the centre, and then joined.
+/// First count all parts, for the mass and the centre. Then join them.
 class Cluster {
 public:
     void count(const ClusterPart& part);

@@ -18,28 +18,29 @@ namespace hapnet::scene {
 
 namespace {
 
-// Touches of one body in a tick. After some it does not bounce any more, and overlaps by more with
-// each: where many are wedged into each other, touches would have no end. After more it sticks.
+// The limits of the touches of one body in a tick. After `touches_many` the body no longer bounces,
+// and overlaps by more with each touch: where many bodies are wedged into each other, touches would
+// have no end. After `touches_max` it sticks.
 constexpr std::uint32_t touches_max = 24, touches_many = 12;
 constexpr double many_times = 4.0;
-// The number of looks at two bodies in a tick: a base, and a number for each movable body. It grows
-// with their number, as each then has more neighbours. When half of the looks are used up, all that
-// touches sticks.
+// The number of looks at two bodies in a tick: a base, and a number for each movable body, which
+// grows with the number of bodies, as each body then has more neighbours. When half of the looks
+// are used up, all touching bodies stick.
 constexpr std::uint32_t steps_base = 192, steps_per_body = 16, steps_per_pair = 2,
                         steps_per_body_max = 96;
 // The cost of a touch, in looks.
 constexpr std::uint32_t steps_per_touch = 8;
-// Meetings for each movable body, on average.
+// The average number of meetings for each movable body.
 constexpr std::size_t meetings_per_body_max = 64;
 constexpr std::size_t meetings_max = 65'536;
 // The number of meetings whose search costs about one look.
 constexpr std::size_t meetings_per_step = 256;
 
-// A body that came farther than this behind the face that it touched, in smallest half edges of the
-// two, is not there by right.
+// A body that is farther than this behind the face that it touched has passed through it, in
+// smallest half edges of the two.
 constexpr double behind_max = 0.1;
 // The least speed of a bounce, in units of the speed that gravity adds in a tick, as for bounces
-// within a tick. A slower body stays.
+// within a tick. A slower body does not bounce.
 constexpr double least_bounce = 2.0;
 
 std::uint32_t steps_for(const Bodies& bodies)
@@ -56,8 +57,8 @@ std::size_t room_for_meetings(const WorldConfig& config, const Bodies& bodies)
     return std::min(bodies.movable_parts() * each, meetings_max);
 }
 
-/// Returns the part of gravity and pushes that is left where contacts bear them: the change of the
-/// tick, where that is less. At an impact it is more, and comes at a moment.
+/// Returns the part of gravity and pushes that contacts do not bear: the change of velocity in the
+/// tick, where that is less. At an impact the change is greater, and happens at one moment.
 glm::dvec3 borne(const glm::dvec3& steady, const glm::dvec3& change)
 {
     constexpr double rounding = 1e-9;
@@ -152,8 +153,8 @@ void ContinuousCollision::solve(const Surroundings& around, std::span<const Slot
     }
 }
 
-/// Finds again what is in the way of a flyer that goes on differently from a moment on, and when.
-/// It leaves out one other, which is `done`.
+/// Searches again for the others in the path of a flyer whose motion changes at a moment, and for
+/// the times of their touches. It omits one other, which is `done`.
 template <BroadPhase search>
 void ContinuousCollision::go_on(const Surroundings& around, const PairFinder<search>& pairs,
                                 FlyerIndex index, double time, FlyerIndex done)
@@ -167,7 +168,7 @@ void ContinuousCollision::go_on(const Surroundings& around, const PairFinder<sea
     advance_all(around, index, time, done);
 }
 
-/// One touch, or one body that goes on otherwise: what comes first. False when nothing comes.
+/// Handles the next touch or change of a body's motion. Returns false when there is none.
 template <BroadPhase search>
 bool ContinuousCollision::go_to_next_touch(const Surroundings& around,
                                            const PairFinder<search>& pairs)
@@ -261,14 +262,15 @@ SteadyBox ContinuousCollision::chord(const Bodies& bodies, Slot slot) const
     return flight;
 }
 
-/// The smallest half edge of a body and what it may meet; of what moves by itself, of all bodies.
+/// Returns the smallest half edge of a body and of the bodies that it may meet. For a body that is
+/// not movable it is that of all movable bodies.
 double ContinuousCollision::least_near(const Bodies& bodies, Slot slot) const
 {
     if (slot >= bodies.movable) return scales_.size;
     return slot < bodies.awake ? departures_[slot].least_near : bodies.properties[slot].least_half;
 }
 
-/// True if the way in the rest of the tick is so long that it could pass something.
+/// True if the path in the rest of the tick is so long that the body could pass something.
 bool ContinuousCollision::goes_far(const SteadyBox& flight, double time, double least_near) const
 {
     const double turning = flight.core_radius() * length(flight.spin);
@@ -295,7 +297,7 @@ ContinuousCollision::FlyerIndex ContinuousCollision::add_flyer(const Surrounding
     return index;
 }
 
-/// True if a body cannot have gone the straight way to where it was put.
+/// True if a body cannot have taken the straight path to the place where it was put.
 bool ContinuousCollision::has_to_bend(const Surroundings& around, FlyerIndex index)
 {
     const Bodies& bodies = around.state.bodies;
@@ -311,7 +313,7 @@ bool ContinuousCollision::has_to_bend(const Surroundings& around, FlyerIndex ind
     return meets;
 }
 
-/// The first body that comes to its bend before a moment.
+/// Returns the first body whose bend comes before a moment.
 ContinuousCollision::FlyerIndex ContinuousCollision::next_bend(double time) const
 {
     FlyerIndex found = none;
@@ -323,7 +325,7 @@ ContinuousCollision::FlyerIndex ContinuousCollision::next_bend(double time) cons
     return found;
 }
 
-/// True if a body came behind the face of the other that it should have touched first.
+/// True if a body is behind the face of the other body that it should have touched first.
 bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& departure) const
 {
     const FirstTouch& first = departure.first_touch;
@@ -340,9 +342,9 @@ bool ContinuousCollision::got_past(const Bodies& bodies, const Departure& depart
     return gap < -behind_max * smallest_half(own, other);
 }
 
-/// Bends a body's way. It moves as it began until its first touch, and then with its velocity at
-/// the end. For a body that hits something with a corner, that is more accurate than the straight
-/// way to its place at the end.
+/// Bends a body's path. The body moves as it began until its first touch, and then with its
+/// velocity at the end. For a body that hits something with a corner, that is more accurate than
+/// the straight path to its place at the end.
 void ContinuousCollision::bend(const Surroundings& around, FlyerIndex index)
 {
     Flyer& flyer = flyers_[index];
@@ -372,7 +374,7 @@ void ContinuousCollision::release(const Surroundings& around, Flyer& flyer, doub
     flyer.has_changed = true;
 }
 
-/// Stops a body for the rest of the tick. Its velocity is kept: the next tick goes on.
+/// Stops a body for the rest of the tick. Its velocity is kept, and it moves on in the next tick.
 void ContinuousCollision::stop(Flyer& flyer, double time)
 {
     flyer.flight.centre += time * flyer.flight.velocity;
@@ -382,7 +384,7 @@ void ContinuousCollision::stop(Flyer& flyer, double time)
     flyer.has_stopped = flyer.has_changed = true;
 }
 
-/// All that go far and may meet anything stay where they have come.
+/// Stops all bodies that go far and may meet something at their present places.
 void ContinuousCollision::stop_all(const Surroundings& around, double time)
 {
     ++around.state.interventions.budgets_spent;
@@ -391,7 +393,7 @@ void ContinuousCollision::stop_all(const Surroundings& around, double time)
             stop(flyer, time);
 }
 
-/// Lists what is in the way of a flyer from a moment on.
+/// Lists the others in the path of a flyer from a moment on.
 template <BroadPhase search>
 void ContinuousCollision::find_others(const Surroundings& around, const PairFinder<search>& pairs,
                                       FlyerIndex index, double time)
@@ -399,7 +401,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     const SteadyBox flight = flyers_[index].flight;
     const double until = std::min(scales_.tick, flyers_[index].bend);
     const double end = flyers_[index].is_released ? scales_.tick : until;
-    // This margin also covers the way of others that move without being fast.
+    // This margin also covers the paths of others that move without being fast.
     const Bodies& all = around.state.bodies;
     const double margin =
         flight.radius + far_way * least_near(all, all.slot_of[flyers_[index].body]);
@@ -434,7 +436,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
         meet(other, false);
     });
     for (FlyerIndex other = 0; other < flyers_.size(); ++other) {
-        // Finds bodies that were thrown out of the boxes in which the others find them.
+        // Such bodies may have been thrown out of the fat boxes in which the search finds them.
         if (other == index || !flyers_[other].is_fast) continue;
         if (!overlap(way, flyers_[other].searched)) continue;
         if (are_to_meet(index, other, false) || are_to_meet(other, index, false)) continue;
@@ -446,7 +448,7 @@ void ContinuousCollision::find_others(const Surroundings& around, const PairFind
     }
 }
 
-/// True if two that touch have touched so often that they stick.
+/// True if two bodies that touch have touched so often that they stick.
 bool ContinuousCollision::is_too_much(const Meeting& meeting) const
 {
     if (looks_run_short()) return true;
@@ -456,7 +458,8 @@ bool ContinuousCollision::is_too_much(const Meeting& meeting) const
     return is_done(flyers_[meeting.a]) || (!meeting.is_plane && is_done(flyers_[meeting.b]));
 }
 
-/// Makes two touch. If they come nearer, they push each other. After a number of touches they stay.
+/// Handles a touch of two bodies. If they approach each other, they push each other. After a number
+/// of touches they stay.
 void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
 {
     const double time = meeting.time;
@@ -478,7 +481,7 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     for (std::size_t i = 0; i < count; ++i) {
         Flyer& flyer = flyers_[both[i]];
         if (!flyer.is_movable || flyer.has_stopped) continue;
-        // Without a push they only seemed to approach each other, because the spin was outdated.
+        // Without a push, only an outdated spin made them seem to approach each other.
         if (pushed || !any_released) {
             release(around, flyer, time);
             ++flyer.touches;
@@ -490,7 +493,7 @@ void ContinuousCollision::touch(const Surroundings& around, Meeting& meeting)
     }
 }
 
-/// A flyer as it is at a moment.
+/// Returns the state of a flyer at a moment.
 Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& flyer,
                                      double time) const
 {
@@ -509,7 +512,7 @@ Toucher ContinuousCollision::toucher(const Surroundings& around, const Flyer& fl
     return its;
 }
 
-/// Returns where two touch, and the roundness of both there.
+/// Returns where two bodies touch, and the rounding of both there.
 ContinuousCollision::TouchPoints ContinuousCollision::touch_points(const Surroundings& around,
                                                                    const Meeting& meeting) const
 {
@@ -535,7 +538,7 @@ ContinuousCollision::TouchPoints ContinuousCollision::touch_points(const Surroun
     return points;
 }
 
-/// The impulse of a touch; whether there was one.
+/// Applies the impulse of a touch. Returns true if there was one.
 bool ContinuousCollision::exchange_impulse(const Surroundings& around, Meeting& meeting)
 {
     Bodies& bodies = around.state.bodies;

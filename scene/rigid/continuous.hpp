@@ -20,26 +20,27 @@
 
 namespace hapnet::scene {
 
-/// Looks at the way that fast bodies have gone in a tick, and lets none pass through another, for
-/// any orientation and spin (continuous collision detection).
+/// Continuous collision detection: examines the paths of fast bodies in a tick and lets no body
+/// pass through another, for any orientation and spin.
 ///
-/// The contacts of a tick know one touch of two bodies. What the impulse leaves may still go into
-/// the wall, on a spin: a cube that hits with a corner. So the way of every body that went farther
-/// than it could without passing something, turning included, is searched by conservative
-/// advancement. At a touch that is still approaching, both bodies get an impulse at that moment,
-/// with restitution and friction, and go on; in the order of time, for all of them.
+/// The contacts of a tick cover one touch of two bodies. The motion after their impulse may still
+/// lead into the wall because of the spin, as when a cube hits with a corner. So the path of every
+/// body that moved so far that it could pass something, turning included, is searched by
+/// conservative advancement. At a touch whose bodies still approach, both get an impulse at that
+/// moment, with restitution and friction, and go on. All touches are handled in the order of time.
 ///
-/// Where many fast bodies are packed, touches would have no end. Bodies that touch too often in one
-/// tick stick together (Cluster): they have one motion from then on, as after an inelastic impact,
-/// and lose their speed against a wall that they touch. Each such step takes away one body or one
-/// direction, so there are few, and bodies of one motion take a single look.
+/// Where many fast bodies are packed, touches would have no end. So bodies that touch too often in
+/// one tick stick together (Cluster). From then on they have one motion, as after an inelastic
+/// impact, and they lose their speed against a wall that they touch. Each such step removes one
+/// body or one direction, so there are few steps, and bodies of one motion need only one search.
 ///
-/// In a tick: begin() before bodies move, solve() after. Call neither when no body goes far.
+/// In each tick call begin() before bodies move and solve() after. Call neither when no body goes
+/// far.
 class ContinuousCollision {
 public:
     ContinuousCollision(const WorldConfig& config, const Bodies& bodies, const Scales& scales);
 
-    /// Remembers where the awake bodies are, and how those that something acts on will turn.
+    /// Remembers where the awake bodies are, and how the active bodies will turn.
     void begin(const WorldConfig& config, const WorldState& state, std::span<const Slot> active,
                std::span<const BodyIntegration> integrations, ContactSolver& solver);
 
@@ -48,15 +49,16 @@ public:
         WorldState& state;
         const Kinematics& kinematics; // bodies are still at their start, with their mean velocities
     };
-    /// Corrects what went through something. Sleepers that are hit move on at once; woken() says
-    /// which, to be woken.
+    /// Corrects the motion of bodies that went through something. Sleeping bodies that are hit move
+    /// on at once; woken() lists them, so that they can be woken.
     template <BroadPhase search>
     void solve(const Surroundings& around, std::span<const Slot> active,
                const PairFinder<search>& pairs);
-    /// The greatest number of looks at two bodies in a tick, and the number in the last solve().
+    /// Returns the greatest number of looks at two bodies in a tick. looks() returns the number in
+    /// the last solve().
     [[nodiscard]] std::uint64_t looks_max() const { return steps_max_; }
     [[nodiscard]] std::uint64_t looks() const { return steps_max_ - steps_left_; }
-    /// True if the last solve() changed a body's velocity or its way.
+    /// True if the last solve() changed a body's velocity or its path.
     [[nodiscard]] bool has_changed_any() const
     {
         const auto flyers = flyers_.all();
@@ -79,8 +81,7 @@ public:
     {
         return departures_[slot].beginning;
     }
-    /// Calls visit(slot) for the movable bodies that the last solve() changed, in velocity or in
-    /// their way.
+    /// Calls visit(slot) for the movable bodies whose velocity or path the last solve() changed.
     template <typename Visit>
     void for_changed(const Bodies& bodies, Visit&& visit) const
     {
@@ -100,12 +101,12 @@ public:
         }
     }
 
-    /// A fixed or kinematic thing that was in the way of a movable body.
+    /// A fixed or kinematic thing that a movable body ran into.
     struct Wall {
         bool is_kinematic = false;
         bool has_pushed = false;
     };
-    /// Calls visit(slot, wall) for each movable body that had one in its way.
+    /// Calls visit(slot, wall) for each wall that a movable body ran into.
     template <typename Visit>
     void for_walls(const Bodies& bodies, Visit&& visit) const
     {
@@ -127,8 +128,8 @@ private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
     // The number of steps spent at once on two bodies that others may touch first. When half of all
-    // steps are used up, two bodies for which `steps_many` do not suffice stick before they touch:
-    // they spin beside each other.
+    // steps are used up, two bodies for which `steps_many` do not suffice stick before they touch.
+    // Such bodies spin beside each other.
     static constexpr std::uint32_t steps_at_once = 4, steps_many = 32;
 
     /// A body's state at the start of the tick, and how it turned from there.
@@ -148,7 +149,7 @@ private:
         bool is_movable = false;
         bool is_kinematic = false;
         bool has_parts = false;       // `flight` is then that of a box around all parts
-        bool is_fast = false;         // others in its way are searched for
+        bool is_fast = false;         // the search looks for others on its path
         bool is_released = false;     // it moves with its velocity at the end of the tick
         bool has_stopped = false;     // it stays where it is for the rest of the tick
         bool has_changed = false;     // it does not end where the solver put it
@@ -160,7 +161,7 @@ private:
         double bend = HUGE_VAL; // s: time at which it is released at the latest
         SteadyBox flight;       // time 0 is the start of the tick
         Roll roll;
-        Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // already searched for others in its way
+        Aabb searched{glm::dvec3{1.0}, glm::dvec3{-1.0}}; // region already searched for others
     };
     /// Two things that may touch: a flyer and another flyer or a plane.
     struct Meeting {
@@ -169,9 +170,9 @@ private:
         PartId part_a = 0, part_b = 0; // the parts, if the bodies have several
         bool is_plane = false;
         bool has_pushed = false;
-        bool is_over = false;  // the two surely do not touch any more in this tick
+        bool is_over = false;  // the two certainly do not touch again in this tick
         bool is_sure = false;  // the two touch at `time`
-        double time = 0.0;     // s: the two surely do not touch before it
+        double time = 0.0;     // s: the two certainly do not touch before it
         double gap = 0.0;      // m: gap at which they touch; < 0: an overlap
         double smallest = 0.0; // m: the smallest half edge of the two, or their roundings
         MeetingIndex next_of_a = none;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// The part of continuous collision that is about bodies that stick together.
+// The part of continuous collision for bodies that stick together.
 #include "scene/rigid/continuous.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void ContinuousCollision::for_stuck(FlyerIndex index, Visit visit)
 }
 
 /// Makes two bodies that touch stick together, or one body stick to a wall. When looks run short,
-/// all movable bodies that are sure to meet stick together.
+/// all movable bodies that are certain to meet stick together.
 void ContinuousCollision::stick(const Surroundings& around, Meeting& meeting)
 {
     const auto is_wall = [&](const Meeting& its) {
@@ -100,7 +100,7 @@ void ContinuousCollision::go_together(const Surroundings& around, FlyerIndex ind
     });
 }
 
-/// Takes from bodies that stick together their speed against a wall, see Cluster::stick_to_wall().
+/// Removes the speed against a wall from bodies that stick together, see Cluster::stick_to_wall().
 void ContinuousCollision::stick_to_wall(const Surroundings& around, FlyerIndex index,
                                         const Meeting& meeting)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What of continuous collision is about two that may touch, and when they do.
+// The part of continuous collision that finds which two bodies may touch, and when.
 #include "scene/rigid/allowed_overlap.hpp"
 #include "scene/rigid/continuous.hpp"
 
@@ -29,7 +29,7 @@ bool ContinuousCollision::are_to_meet(FlyerIndex a, std::uint32_t b, bool is_pla
     return false;
 }
 
-/// One part of the body instead of the box around it.
+/// Replaces the box around a body by one of its parts.
 void ContinuousCollision::set_part(SteadyBox& flight, const BodyPart& part)
 {
     flight.half = part.half;
@@ -40,7 +40,7 @@ void ContinuousCollision::set_part(SteadyBox& flight, const BodyPart& part)
     flight.frame = part.axes;
 }
 
-/// Returns how a part of a flyer moves. A body of several parts needs `room` for the result.
+/// Returns the motion of a part of a flyer. A body of several parts needs `room` for the result.
 const SteadyBox& ContinuousCollision::flight_of(const Bodies& bodies, FlyerIndex index, PartId part,
                                                 SteadyBox& room) const
 {
@@ -51,7 +51,7 @@ const SteadyBox& ContinuousCollision::flight_of(const Bodies& bodies, FlyerIndex
     return room;
 }
 
-/// Returns the gap of the two at a moment.
+/// Returns the gap of the two bodies at a moment.
 Gap ContinuousCollision::gap_of(const Surroundings& around, const Meeting& meeting,
                                 double time) const
 {
@@ -85,7 +85,7 @@ void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting&
     }
     const Gap gap = gap_of(around, wanted, 0.0);
     // Bodies that overlap far at the start cannot pass each other any more. A round body can until
-    // its core overlaps the other.
+    // its core overlaps the other body.
     if (gap.distance <= -(is_round ? round_overlap_max : overlap_max) * smallest) return;
     const auto index = static_cast<MeetingIndex>(meetings_.size());
     Meeting& meeting = meetings_.add();
@@ -102,7 +102,7 @@ void ContinuousCollision::add_meeting(const Surroundings& around, const Meeting&
     advance(around, meeting, wanted.time, steps_at_once);
 }
 
-/// The next touch; of those at the same time the first.
+/// Returns the next touch; of those at the same time the first.
 ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
 {
     MeetingIndex found = none;
@@ -114,7 +114,8 @@ ContinuousCollision::MeetingIndex ContinuousCollision::earliest() const
     return found;
 }
 
-/// Searches for the next touch of two that keep their motion, with a limited number of looks.
+/// Searches for the next touch of two bodies that keep their motion, with a limited number of
+/// looks.
 void ContinuousCollision::advance(const Surroundings& around, Meeting& meeting, double from,
                                   std::uint32_t looks_max)
 {
@@ -160,7 +161,7 @@ void ContinuousCollision::advance_all(const Surroundings& around, FlyerIndex ind
     });
 }
 
-/// One that sleeps is to be woken.
+/// Notes that a body was pushed. A sleeper will be woken.
 void ContinuousCollision::note_push(const Bodies& bodies, BodyId body)
 {
     if (bodies.slot_of[body] < bodies.awake) return;

@@ -10,7 +10,8 @@ namespace hapnet::scene {
 
 // The turning of a body between two touches within a tick.
 
-/// The turn of a capsule about its own axis, which nothing that it meets can tell.
+/// The turn of a capsule about its own axis. It makes no difference to anything that the capsule
+/// meets.
 struct Roll {
     double rate = 0.0;  // rad/s
     double angle = 0.0; // rad: turned until `time`

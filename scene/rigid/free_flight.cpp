@@ -32,18 +32,18 @@ void integrate_axis(std::vector<double>& position, std::vector<double>& velocity
     }
 }
 
-/// A turn too small to show in an orientation: half its angle, squared.
+/// The square of half the angle of a turn that is too small to change an orientation.
 constexpr double negligible2 = 1e-36;
 
-/// The turns of some bodies, in lanes on the stack: the compiler sees that they overlap nothing,
-/// so that the loops become vector instructions.
+/// The turns of some bodies, in lanes on the stack. There the compiler knows that the lanes do not
+/// overlap, so the loops become vector instructions.
 struct Rotations {
     static constexpr std::size_t room = 128;
     std::array<double, room> w, x, y, z;
     std::array<double, room> renewed; // 1: the orientation is made unit; 0: it stays as it is
 };
 
-/// The turn of every body of the range. Returns how many turn too far for the short series.
+/// Finds the turn of every body of the range. Returns how many turn too far for the short series.
 double find_rotations(Rotations& rotations, const Bodies::Lanes3& momentum, SlotRange range,
                       const double* half_angle_by_momentum)
 {
@@ -69,7 +69,7 @@ double find_rotations(Rotations& rotations, const Bodies::Lanes3& momentum, Slot
     return far;
 }
 
-/// As find_turns, one by one and for turns of any size.
+/// As find_rotations(), one by one and for turns of any size.
 void find_far_rotations(Rotations& rotations, const Bodies::Lanes3& momentum, SlotRange range,
                         const double* half_angle_by_momentum)
 {
@@ -85,7 +85,7 @@ void find_far_rotations(Rotations& rotations, const Bodies::Lanes3& momentum, Sl
     }
 }
 
-/// orientation = turn * orientation, unit.
+/// Applies the turns: orientation = turn * orientation, with length 1.
 void apply(const Rotations& rotations, Bodies::Lanes4& orientation, SlotRange range)
 {
     double* const w = orientation.w.data() + range.begin;
@@ -103,7 +103,7 @@ void apply(const Rotations& rotations, Bodies::Lanes4& orientation, SlotRange ra
         const double d = rotations.w[i] * z[i] + rotations.z[i] * w[i] + rotations.x[i] * y[i] -
                          rotations.y[i] * x[i];
         const double square = a * a + b * b + c * c + d * d;
-        // 1 / sqrt(square) to the first order about 1, from which rounding alone has led it away.
+        // 1 / sqrt(square) to first order about 1. The square differs from 1 only by rounding.
         const double shrink = 1.0 + (0.5 * rotations.renewed[i]) * (1.0 - square);
         w[i] = a * shrink;
         x[i] = b * shrink;
@@ -213,7 +213,8 @@ FreeFlightStepper::FreeFlightStepper(const Description& /*description*/, const W
 
 void FreeFlightStepper::step(const WorldConfig& config, WorldState& state)
 {
-    // Half of a torque's impulse before the rotation: so it rotates by the mean over the tick.
+    // Half of a torque's impulse acts before the rotation, so the body rotates with the mean over
+    // the tick.
     for (const BodyId body : state.twisted) apply_half_torque(state, body, config.tick);
     for (const Run& run : runs_) {
         integrate_parabola(state.bodies, run.range, run.acceleration, config.tick);

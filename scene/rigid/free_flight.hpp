@@ -10,7 +10,7 @@
 
 namespace hapnet::scene {
 
-/// Bodies that lie one after the other.
+/// Bodies in neighbouring slots.
 struct SlotRange {
     Slot begin = 0;
     Slot end = 0;
@@ -31,10 +31,10 @@ void rotate_uniformly(Bodies& bodies, SlotRange range, double tick);
 /// Turns one body of any kind by one tick in which nothing touches it.
 void rotate_freely(Bodies& bodies, Slot slot, double tick);
 
-/// The acceleration by gravity along the axes in which the body is not locked.
+/// The gravity along the axes in which the body is not locked.
 [[nodiscard]] glm::dvec3 gravity_on(const BodyProperties& properties, const glm::dvec3& gravity);
 
-/// Moves bodies that nothing touches, whatever their kinds: many at once when all movable bodies of
+/// Moves bodies of any kind that nothing touches. It moves many at once when all movable bodies of
 /// the scene turn evenly and fall equally, otherwise one by one.
 class FreeBodies {
 public:
@@ -49,7 +49,8 @@ private:
     bool are_alike_ = true;
 };
 
-/// Bodies that nothing touches: exact parabolas, and rotations that keep the angular momentum.
+/// Steps bodies that nothing touches: exact parabolas, and rotations that keep the angular
+/// momentum.
 class FreeFlightStepper {
 public:
     FreeFlightStepper(const Description& description, const WorldConfig& config,
@@ -61,7 +62,7 @@ public:
     [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& /*config*/) const { return {}; }
 
 private:
-    /// Neighbouring bodies that have the same limits of turning and falling.
+    /// Kinds of bodies. Neighbouring bodies of one kind are moved together.
     enum class Kind : std::uint8_t { locked, uniform, tumbling };
     struct Run {
         Kind kind = Kind::locked;
@@ -76,7 +77,8 @@ private:
     std::vector<Run> runs_;
 };
 
-/// The awake bodies on which something acts in a tick: a contact, a hand or a push. The others fly.
+/// The active bodies: awake ones on which a contact, a hand or a push acts in the tick. The others
+/// fly.
 class ActiveBodies {
 public:
     explicit ActiveBodies(Slot movable) : slots_{movable}, marks_(movable, 0) {}
@@ -97,10 +99,10 @@ public:
 
     [[nodiscard]] bool contains(Slot slot) const { return marks_[slot] != 0; }
 
-    /// The slots in the order in which they came.
+    /// Returns the slots in the order in which they were added.
     [[nodiscard]] std::span<const Slot> slots() const { return slots_.all(); }
 
-    /// Calls visit(range) for all the others up to `end`.
+    /// Calls visit(range) for all ranges of other slots up to `end`.
     template <typename Visit>
     void for_inactive(Slot end, Visit solve_block) const
     {

@@ -61,12 +61,13 @@ void HandContacts::collide(const WorldConfig& config, WorldState& state, std::ui
     if (target.is_movable && state.hands[hand].gripping) {
         if (add_grip(config, state, hand, target)) return;
         const std::optional<Holding>& holding = hands_[hand].holding;
-        if (holding && holding->body == target.body) return; // it holds another part
+        if (holding && holding->body == target.body) return; // the hand holds another part
     }
     add_push(config, state, hand, target);
 }
 
-/// True if the hand holds the body: then it pulls and pushes in all directions where it took hold.
+/// True if the hand holds the body. Then it pulls and pushes in all directions at the point where
+/// it gripped.
 bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::uint32_t index,
                             const Target& target)
 {
@@ -98,7 +99,7 @@ bool HandContacts::add_grip(const WorldConfig& config, WorldState& state, std::u
     return true;
 }
 
-/// `offset` is the hand's from the body's centre.
+/// Sets the geometry of a press on a face. `offset` is the hand's place from the body's centre.
 inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, HandSpring& spring)
 {
     const double gap = glm::dot(face.normal, offset) - face.half;
@@ -108,8 +109,8 @@ inline void HandContacts::press(const AmidFace& face, const glm::dvec3& offset, 
     spring.is_amid_face = true;
 }
 
-/// Finds where the hand's sphere overlaps a body's box, or may within the tick, and whether it
-/// does.
+/// Finds where the hand's sphere overlaps a body's box, or may overlap it within the tick. Returns
+/// false if it does neither.
 inline bool HandContacts::touch(const WorldConfig& config, const HandInput& input,
                                 const Target& target, NearBody& near_body, HandSpring& spring) const
 {
@@ -117,7 +118,7 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
     if (target.with_parts != nullptr) return find_on_part(config, input, target, near_body, spring);
     const AmidFace& amid = near_body.amid;
     const glm::dvec3 offset = input.position.value - target.now.box.centre;
-    // Mostly it presses the face that it pressed before.
+    // Usually the hand presses the face that it pressed before.
     if (amid.turns == target.now.turns && sum_of_sizes(offset - amid.offset) <= amid.room) {
         press(amid, offset, spring);
         if (spring.gap < 0.0 && spring.gap > -spring.radius) {
@@ -128,7 +129,7 @@ inline bool HandContacts::touch(const WorldConfig& config, const HandInput& inpu
     return find(config, input, target, near_body, spring);
 }
 
-/// As find(), on one of several parts; the arm is from the body's centre.
+/// As find(), on one of several parts. The arm starts at the body's centre.
 bool HandContacts::find_on_part(const WorldConfig& config, const HandInput& input,
                                 const Target& target, NearBody& near_body, HandSpring& spring) const
 {
@@ -139,9 +140,9 @@ bool HandContacts::find_on_part(const WorldConfig& config, const HandInput& inpu
     return !is_inner(input, target, spring);
 }
 
-/// True if the point that the hand touches lies within another part, or on it, and the hand goes at
-/// least as deep into that part. Then that part pushes the hand, so that two faces that lie flush
-/// feel like one. Of parts at the same depth, the one with the lower id pushes.
+/// True if the point that the hand touches lies within or on another part, and the hand is at least
+/// as deep in that part. Then that part pushes the hand, so that two faces that lie flush feel like
+/// one. Of parts at the same depth, the one with the lower id pushes.
 bool HandContacts::is_inner(const HandInput& input, const Target& target, const HandSpring& spring)
 {
     const Bodies& bodies = *target.with_parts;
@@ -172,7 +173,8 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
     near_body.axes = box.axes;
     AmidFace& amid = near_body.amid;
     amid.room = -1.0;
-    // Looks as far ahead as the two come nearer: a spring may begin to act within the tick.
+    // The look-ahead is the distance by which the two approach: a spring may begin to act within
+    // the tick.
     const double turning =
         sum_of_sizes(target.now.spin) * (sum_of_sizes(box.half) + sum_of_sizes(target.now.offset));
     const double ahead =
@@ -207,8 +209,8 @@ bool HandContacts::find(const WorldConfig& config, const HandInput& input, const
     return true;
 }
 
-/// Returns the part of an overlap that is left where faces are internal: behind such a face the
-/// nearest outer one pushes, and beside it the neighbour does.
+/// Returns the part of an overlap that remains where faces are internal. Behind an internal face
+/// the nearest outer face pushes, and beside it the neighbour does.
 std::optional<LocalOverlap> HandContacts::outer_overlap(const InternalFaces& internal,
                                                         const Target& target, const FoundNear& near,
                                                         const LocalOverlap& found)
@@ -272,7 +274,7 @@ void HandContacts::add_push(const WorldConfig& config, WorldState& state, std::u
         const double impulse = impulse_at_constant_velocity(hands, depth, closing, config.tick);
         touch.on_hand.value += (impulse / config.tick) * spring.normal;
     }
-    // A spring that does not begin to act within the tick is left out; one that acts already stays,
+    // A spring that does not begin to act within the tick is left out. One that acts already stays,
     // also in the tick in which it ends.
     const bool is_idle = depth < 0.0 && -depth > closing * config.tick + gravity_reach_;
     if (!target.is_movable || is_idle || !has_room(config, index, target)) {
@@ -430,7 +432,7 @@ void HandContacts::rub_planes(const WorldConfig& config, WorldState& state, std:
     }
 }
 
-/// Adds the friction of a hand on something whose motion hands do not change.
+/// Adds the friction of a hand on something whose motion the hands do not change.
 void HandContacts::rub_unmoved(const WorldConfig& config, WorldState& state,
                                const HandProxies::Touch& touch, const HandFriction& limits,
                                const Press& press)
@@ -476,8 +478,8 @@ void HandContacts::store_friction(WorldState& state, BodyId body)
     }
 }
 
-/// True if a body takes another spring: as many as there can be hands. So a hand pushes several
-/// parts of it only as long as there is one left for each hand that is still to come.
+/// True if a body can take another spring. It takes as many as there can be hands. So one hand may
+/// push several parts of it only as long as a spring is left for each later hand.
 bool HandContacts::has_room(const WorldConfig& config, std::uint32_t index,
                             const Target& target) const
 {

@@ -18,10 +18,11 @@
 
 namespace hapnet::scene {
 
-/// Bodies that one hand touches at the same time, at most; those with the lowest ids.
+/// The greatest number of bodies that one hand touches at the same time. Of more bodies, those with
+/// the lowest ids count.
 inline constexpr std::size_t touched_per_hand_max = 8;
 
-/// The hands' springs of one tick, and what the next tick has to know of the bodies they touch.
+/// The hands' springs of one tick, and the memory of the touched bodies that the next tick needs.
 class HandContacts {
 public:
     explicit HandContacts(const WorldConfig& config);
@@ -69,11 +70,11 @@ public:
                 bodies.velocity.at(slot),
                 properties.has_parts() ? &bodies : nullptr};
     }
-    /// Finds what the hand does to one of the bodies that it may reach.
+    /// Finds the effect of the hand on one of the bodies that it may reach.
     void collide(const WorldConfig& config, WorldState& state, std::uint32_t hand,
                  const Target& target);
     /// True if all springs of this tick, one or two, press amid faces of one body that no other
-    /// hand is near: then the next tick may begin with press_again().
+    /// hand is near. Then the next tick may begin with press_again().
     [[nodiscard]] bool may_press_again(const WorldConfig& config);
     /// Finds the same contacts as collide() would. Returns false when the hand presses another face
     /// or none.
@@ -84,8 +85,8 @@ public:
     /// Adds the forces of planes on the hands.
     static void feel_planes(const WorldConfig& config, WorldState& state);
     [[nodiscard]] bool any_friction() const { return any_friction_; }
-    /// Adds the friction of the springs, and that which hands feel of fixed bodies and planes.
-    /// `target_of` says where a body is.
+    /// Adds the friction of the springs, and the friction that hands feel from fixed bodies and
+    /// planes. `target_of` returns the place and motion of a part.
     template <typename TargetOf>
     void add_friction(const WorldConfig& config, WorldState& state, const TargetOf& target_of)
     {
@@ -116,13 +117,13 @@ public:
     [[nodiscard]] BodySprings springs_on(BodyId body);
     /// The friction of the springs on a body; empty where they are smooth.
     [[nodiscard]] std::span<FrictionSpring> frictions_on(BodyId body);
-    /// Keeps the new state of the friction.
+    /// Stores the new state of the friction.
     void store_friction(WorldState& state, BodyId body);
-    /// Keeps the impulses that were found for the springs.
+    /// Stores the impulses that were found for the springs.
     void store_impulses(BodyId body);
     /// Returns the first spring on a body, which has at least one.
     [[nodiscard]] const Spring& first_spring_on(BodyId body) const;
-    /// Reports to the hands what the springs did.
+    /// Reports the forces of the springs to the hands.
     void report_forces(const WorldConfig& config, WorldState& state);
 
     void forget(const Bodies& bodies, BodyId body);
@@ -133,7 +134,7 @@ private:
         PartId part = 0;
         bool is_current = false; // near the hand in this tick
         SphereBoxMemory memory;
-        // A tick ago: the hand from the body's centre, and the body's axes.
+        // A tick ago: the hand's place from the body's centre, and the body's axes.
         bool has_before = false;
         glm::dvec3 offset{0.0};
         glm::dmat3 axes{1.0};

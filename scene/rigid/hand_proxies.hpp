@@ -8,15 +8,16 @@
 
 namespace hapnet::scene {
 
-/// The points where hands stick: a proxy for each hand and body or plane that it rubs against. A
-/// proxy is kept as a point of the body and a point of the hand's sphere, which does not turn; they
-/// were together when it began, and what they are apart now, along the surface, stretches the
-/// spring. So nothing drifts while it sticks, and a body that rolls under a hand slides by nothing.
+/// The points where hands stick: a proxy for each hand and each body or plane that it rubs against.
+/// A proxy is stored as a point of the body and a point of the hand's sphere, which does not turn.
+/// The two points coincided when the contact began. Their present distance along the surface
+/// stretches the spring. So nothing drifts while the hand sticks, and a body that rolls under a
+/// hand does not slide.
 class HandProxies {
 public:
     explicit HandProxies(const WorldConfig& config);
 
-    /// The place where a hand touches, seen from the centre of a body, or from the origin with a
+    /// The place where a hand touches, relative to the centre of a body, or to the origin for a
     /// plane.
     struct Touch {
         std::uint32_t hand = 0;
@@ -31,9 +32,9 @@ public:
 
     /// Starts a tick: drops the proxies that the last tick did not use.
     void begin_step();
-    /// The friction with which the tick begins.
+    /// Returns the friction with which the tick begins.
     [[nodiscard]] FrictionSpring begin(const Touch& touch, const HandFriction& limits);
-    /// Keeps the new state of the friction.
+    /// Stores the new state of the friction.
     void end(const Touch& touch, const FrictionSpring& friction);
     void forget(PartId part);
 

@@ -15,17 +15,17 @@ namespace hapnet::scene {
 
 namespace {
 
-/// The distance by which the correction of overlaps may throw such a body off its way, in half
+/// The distance by which the correction of overlaps may throw such a body off its path, in half
 /// edges of the smallest body. One contact may move it that far, see correction_max.
 constexpr double stray_max = 0.1;
 
-/// The part of a displacement or velocity along unlocked axes.
+/// Returns the part of a displacement or velocity along unlocked axes.
 glm::dvec3 unlocked_part(const glm::dvec3& light, const glm::dvec3& way)
 {
     return {light.x > 0.0 ? way.x : 0.0, light.y > 0.0 ? way.y : 0.0, light.z > 0.0 ? way.z : 0.0};
 }
 
-/// A turn too small to show in an orientation.
+/// True if a turn is too small to change an orientation.
 bool is_negligible(const glm::dvec3& angle)
 {
     constexpr double nothing = 1e-18;
@@ -38,7 +38,7 @@ glm::dvec3 tangential_part(const glm::dvec3& v, const glm::dvec3& normal)
     return v - glm::dot(v, normal) * normal;
 }
 
-/// The acceleration by everything but the hands and the drag.
+/// Returns the acceleration by everything but the hands and the drag.
 glm::dvec3 acceleration_without_hands(const BodyIntegration& integration, const WorldState& state,
                                       Slot slot, const WorldConfig& config)
 {
@@ -163,8 +163,8 @@ void integrate_velocity(BodyIntegration& integration, const WorldState& state, S
                              glm::dvec3{0.0}};
     if (!rotates_uniformly(state.bodies.properties[slot])) {
         // A body's moments of inertia turn with it: the angular momentum stays, the spin does not.
-        // For a body that rotates far in a tick this rate is wrong: it fades out. It is that of the
-        // momentum at the start: what wedged contacts add may be anything.
+        // For a body that rotates far in a tick this rate is wrong, so it fades out. It is computed
+        // with the momentum at the start, as wedged contacts may add any amount.
         constexpr double far = 0.3; // radians
         const glm::dvec3& spin = integration.start.spin;
         const double fades = std::min(1.0, tick * tick * glm::dot(spin, spin) / (far * far));
@@ -269,7 +269,7 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     const double speed = std::sqrt(glm::dot(slip, slip));
     constexpr double hardly = 1e-9;
     if (speed <= hardly * scales.speed) return;
-    // For a body that rotates, the centre's velocity is not the slip where it touches.
+    // For a body that rotates, the centre's velocity is not the slip at the contact.
     constexpr double steadily = 1e-6;
     const double turning2 = glm::dot(integration.start.spin, integration.start.spin);
     const double across2 = glm::dot(properties.half, properties.half);
@@ -277,7 +277,7 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
     const glm::dvec3 along = slip / speed;
     const double held = sign * (block.impulse.tangent_1 * glm::dot(block.tangent_1, along) +
                                 block.impulse.tangent_2 * glm::dot(block.tangent_2, along));
-    // The other forces along the slip: it brought the body to a stop together with the friction.
+    // The other forces along the slip, which brought the body to a stop together with the friction.
     const double other = -properties.mass * speed - held;
     const double braking = block.friction_limit() - other;
     if (!(braking > properties.mass * speed)) return;

@@ -15,7 +15,7 @@
 
 namespace hapnet::scene {
 
-/// The first touch of a body that goes far in a tick, on the way that it began.
+/// The first touch of a body that goes far in a tick, on the path that it began.
 struct FirstTouch {
     double time = std::numeric_limits<double>::infinity(); // s, within the tick
     glm::dvec3 normal{0.0};                                // from the body to the other
@@ -55,7 +55,7 @@ struct BodyIntegration {
     bool has_hands = false;
     bool hands_are_braked = false;
     std::size_t hand_rows = 0; // see HandEnergy
-    double own_work = 0.0;     // J: what hands gave it, less what drag took
+    double own_work = 0.0;     // J: work of the hands on it, less the work that drag took
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     BodyMotion mean_to_there; // mean motion that leads to that place
@@ -82,13 +82,13 @@ struct HandForces {
     std::span<FrictionSpring> frictions{}; // empty: no spring has friction
 };
 
-/// Gravity, pushes and last tick's contact impulses, without hands: a parabola.
+/// Integrates gravity, pushes and last tick's contact impulses, without hands: a parabola.
 void integrate_velocity(BodyIntegration& integration, const WorldState& state, Slot slot,
                         const BodyResponse& response, const WorldConfig& config);
 
-/// The effect of a change of a body's velocity at a time within the tick: the change that is left
+/// The effect of a change of a body's velocity at a time within the tick: the change that remains
 /// at the end, and the part that it adds to the mean velocity. On a plane that supports the body,
-/// drag reduces the change as it does any velocity.
+/// drag reduces the change like any velocity.
 struct VelocityChange {
     glm::dvec3 at_end{0.0};
     glm::dvec3 mean{0.0};
@@ -109,13 +109,13 @@ void integrate_velocity_with_hands(BodyIntegration& integration, const WorldStat
 /// A body that slides on something that does not turn.
 struct SlidingBody {
     const BodyIntegration& integration;
-    const glm::dvec3& ground; // the velocity of what it slides on
+    const glm::dvec3& ground; // velocity of the surface that it slides on
     bool is_second = true;    // the body is the second of the contact
 };
 
-/// Stops a contact that ceases to slip within the tick at its moment. Until then friction has its
-/// full strength, instead of a mean strength until the end. The contact must be the body's only
-/// friction.
+/// Corrects the mean velocity of a body whose contact ceases to slip within the tick, so that it
+/// stops at the exact moment. Until then friction has its full strength, instead of a mean strength
+/// until the end. The contact must be the body's only friction.
 void apply_stop(const ContactBlock& block, const SlidingBody& body,
                 const BodyProperties& properties, const Scales& scales, BodyMotion& mean);
 
@@ -123,12 +123,12 @@ void apply_stop(const ContactBlock& block, const SlidingBody& body,
 void stop_sliding_contacts(const Bodies& bodies, const Scales& scales, ContactSolver& solver,
                            std::span<const BodyIntegration> integrations);
 
-/// Sums up last tick's contact impulses on each body. They count as constant forces, so that a body
-/// that rests or slides straight on is in balance before the solver looks at it.
+/// Sums up last tick's contact impulses on each body. They count as constant forces, so a body that
+/// rests or slides straight on is in balance before the solver starts.
 void warm_start(ContactSolver& solver, std::span<BodyIntegration> integrations);
 
-/// A body that goes farther than this in a tick, in half edges of the smallest of what is near,
-/// could pass through something.
+/// A body could pass through something if it moves farther than this in a tick, in half edges of
+/// the smallest body near it.
 inline constexpr double far_way = 0.5;
 
 /// The results of keep_within_swept_path().
@@ -145,19 +145,19 @@ struct Ways {
            far_way * body.least_half * scales.rate;
 }
 
-/// A body is on its way between what it began with and what it ends with. When the correction of
-/// overlaps throws it far out of that, it goes only as far as it cannot pass through anything, and
-/// responds to nothing more.
+/// Limits the mean motion to the range between the motions at the start and at the end of the tick.
+/// When the correction of overlaps throws a body far out of that range, the body goes only as far
+/// as it can without passing through anything, and no longer responds to impulses.
 Ways keep_within_swept_path(const WorldState& state, std::span<const Slot> slots,
                             std::span<const BodyIntegration> integrations, ContactSolver& solver,
                             const Scales& scales);
 
 /// Returns the spin with which integrate_position() will turn the body steadily through the tick.
-/// Not for a body with hands on it.
+/// It is not valid for a body with hands on it.
 [[nodiscard]] glm::dvec3 spin_through_tick(const BodyIntegration& integration, const Bodies& bodies,
                                            Slot slot, const BodyMotion& mean, double tick);
 
-/// The place to which integrate_position() will move the body.
+/// The position and orientation to which integrate_position() will move the body.
 struct Placement {
     glm::dvec3 position{0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
@@ -165,7 +165,7 @@ struct Placement {
 [[nodiscard]] Placement placement_at_end(const BodyIntegration& integration, const Bodies& bodies,
                                          Slot slot, const BodyMotion& mean, double tick);
 
-/// Moves the body by the mean velocity that was solved for.
+/// Moves the body by the mean velocity that the solver found.
 void integrate_position(const BodyIntegration& integration, Bodies& bodies, Slot slot,
                         ContactSolver& solver, const Scales& scales);
 

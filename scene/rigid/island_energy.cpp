@@ -18,11 +18,11 @@ namespace {
 constexpr double sum_rounding = 1e-14;
 // Two surfaces that close at a small angle squeeze a body out faster than they move, without limit
 // as the angle goes to 0. In contacts the speed of a surface counts as up to `squeezed_max` times
-// its value, but not as more than `squeezed_way` smallest half edges in a tick, unless it is faster
-// itself. A body that goes farther leaves them within the tick.
+// its value, but not as more than `squeezed_way` smallest half edges in a tick, unless the surface
+// itself is faster. A body that goes farther leaves the surfaces within the tick.
 constexpr double squeezed_max = 5.0, squeezed_way = 0.05;
-// A solver that ends its sweeps early leaves this share of what is there, or this multiple of the
-// speed that gravity adds in a tick: no reason to solve again.
+// The errors of a solver that ends its sweeps early: this share of the present energy, and this
+// multiple of the speed that gravity adds in a tick. They are no reason to solve again.
 constexpr double unfinished_share = 1e-6, unfinished_speeds = 2.0;
 
 /// Returns the force on a body's centre from outside, N.
@@ -40,7 +40,7 @@ DrivenEnergy with_squeezing(const Scales& scales, const DrivenEnergy& driven,
     return {driven.energy, std::max(driven.speed, std::min(squeezed_max * driven.speed, most))};
 }
 
-/// True if it keeps no momentum along some axis.
+/// True if the body does not keep its momentum along some axis.
 bool is_locked(const BodyProperties& properties)
 {
     const glm::dvec3& light = properties.inverse_mass;
@@ -60,7 +60,7 @@ glm::dmat3 inertia_of(const BodyProperties& properties, const glm::dquat& orient
 
 bool IslandEnergy::gains(const Account& account)
 {
-    // The work of a surface that moves is known to second order in the tick.
+    // The work of a moving surface is known to second order in the tick.
     const double slack = account.is_driven ? unfinished_share * account.there + account.rest
                                            : sum_rounding * account.there;
     return account.kinetic - account.allowed_at(1.0) > slack;
@@ -110,7 +110,7 @@ void IslandEnergy::Account::add(const Account& other)
     mass += other.mass;
 }
 
-/// Returns a body's account by the velocities that were solved for: the body has not moved yet.
+/// Returns a body's account with the velocities that the solver found. The body has not moved yet.
 IslandEnergy::Account IslandEnergy::velocities_of(const Tick& tick, Slot slot)
 {
     const Bodies& bodies = tick.state.bodies;
@@ -152,7 +152,7 @@ std::span<const std::uint8_t> IslandEnergy::gaining(const Tick& tick)
     if (!any) return {};
     join_islands(tick, slots);
     sum_islands(slots);
-    // A body that a moving surface drives begins with the impulses that it needs.
+    // A body that a moving surface drives needs its warm-start impulses.
     for (const ContactBlock& block : tick.solver.blocks()) {
         if (tick.solver.is_kinematic(block.a) || tick.solver.is_kinematic(block.b))
             accounts_[islands_.root_of(tick.solver.responding_of(block))].allowed = HUGE_VAL;
@@ -197,7 +197,8 @@ IslandEnergy::Account IslandEnergy::outcome_of(const Tick& tick, const Continuou
         account.allowed = integration.own_work;
         account.driven = with_squeezing(tick.scales, integration.driven, properties);
         if (account.driven.speed > 0.0) {
-            // A hand that gives way takes what a surface gives: that leaves no momentum.
+            // A hand that yields takes the energy that a surface gives. That energy leaves no
+            // momentum.
             account.driven.energy += std::min(integration.own_work, 0.0);
             account.allowed = std::max(integration.own_work, 0.0);
         }
@@ -307,8 +308,8 @@ bool IslandEnergy::find_gaining(const Tick& tick, const ContinuousCollision* tou
 }
 
 /// Restores two laws in an island that gained energy. The centre of an island that nothing holds
-/// moves by its momentum. A body turns to where its angular momentum means no more energy than at
-/// the start. Moving overlaps apart may have violated both.
+/// moves by its momentum. A body turns to an orientation in which its angular momentum gives no
+/// more energy than at the start. The correction of overlaps may have violated both.
 void IslandEnergy::mend_ways(const Tick& tick, const ContinuousCollision* touches)
 {
     Bodies& bodies = tick.state.bodies;
@@ -345,9 +346,9 @@ void IslandEnergy::mend_ways(const Tick& tick, const ContinuousCollision* touche
     }
 }
 
-/// Cuts the way of a body that a kinematic body wedged along its locks. Such a body may have been
-/// arbitrarily fast within the tick. If it went farther than its speeds allow, it goes back to
-/// where it began.
+/// Cuts the path of a body that a kinematic body wedged along its locks. Such a body may have been
+/// arbitrarily fast within the tick. If it went farther than its speeds allow, it returns to the
+/// place where it began.
 void IslandEnergy::cut_way(const Tick& tick, const ContinuousCollision* touches, Slot slot)
 {
     const Account& island = accounts_[islands_.root_of(slot + 1)];
@@ -374,8 +375,8 @@ void IslandEnergy::join_islands(const Tick& tick, std::span<const Slot> slots)
     }
 }
 
-/// Notes islands that something fixed or kinematic pushed in the tick: they have no momentum to
-/// keep.
+/// Marks islands that something fixed or kinematic pushed in the tick. Their momentum is not
+/// conserved.
 void IslandEnergy::note_held(const Tick& tick)
 {
     for (const ContactBlock& block : tick.solver.blocks()) {
@@ -397,7 +398,8 @@ void IslandEnergy::sum_islands(std::span<const Slot> slots)
     }
 }
 
-/// The motion of a rigid body with the momentum and angular momentum of an island that is free.
+/// Finds the motion of a rigid body with the momentum and angular momentum of an island that
+/// nothing holds.
 void IslandEnergy::find_rigid(const Tick& tick, std::span<const Slot> slots)
 {
     const Bodies& bodies = tick.state.bodies;
@@ -437,7 +439,7 @@ glm::dvec3 IslandEnergy::about_centre(const Account& island)
     return island.angular - glm::cross(island.centre, island.momentum);
 }
 
-/// Finds the share that is left of the velocities beside those of the rigid body.
+/// Finds the remaining share of the velocities relative to those of the rigid body.
 void IslandEnergy::find_share(Account& island, Interventions& interventions)
 {
     double rigid = 0.0, due = 0.0;

@@ -14,14 +14,14 @@
 
 namespace hapnet::scene {
 
-/// The energy check of a tick. An island, which is bodies that touch, has at most the kinetic
-/// energy that it had, and the work of gravity, pushes and torques on the way that its bodies went,
-/// and what hands and kinematic bodies gave it. All of it is taken from where the bodies came to,
-/// with the inertia that they have there, whatever stage moved them.
+/// The energy check of a tick. An island is a set of bodies that touch. It may have at most its
+/// former kinetic energy, plus the work of gravity, pushes and torques along the paths of its
+/// bodies, plus the energy that hands and kinematic bodies gave it. All terms are computed from the
+/// bodies' final places, with their inertia there, whichever stage moved them.
 ///
 /// An island that has more is slowed. Where it touches something fixed, all its velocities shrink
-/// by one factor. Where nothing holds it, they come nearer to those of a rigid body with its
-/// momentum and angular momentum, so that both stay.
+/// by one factor. Where nothing holds it, its velocities approach those of a rigid body with its
+/// momentum and angular momentum, so that both are conserved.
 class IslandEnergy {
 public:
     explicit IslandEnergy(const Bodies& bodies);
@@ -36,11 +36,11 @@ public:
         ContactSolver& solver;
     };
 
-    /// Returns which bodies, by solver index, are in islands to which the velocities that the
-    /// solver found would give more than is allowed; nothing when there are none.
+    /// Returns marks of the bodies, by solver index, in islands to which the velocities of the
+    /// solver would give more energy than is allowed. Returns an empty span when there are none.
     [[nodiscard]] std::span<const std::uint8_t> gaining(const Tick& tick);
 
-    /// Remembers what the active bodies have before they move.
+    /// Remembers the state of the active bodies before they move.
     static void begin(const Tick& tick);
     /// Slows the islands that gained. `touches` is null where continuous collision changed nothing.
     void settle(const Tick& tick, const ContinuousCollision* touches);
@@ -67,14 +67,15 @@ private:
         double mass = 0.0;
         glm::dmat3 inertia{0.0}; // kg m^2, about the centre
         double share = 1.0;      // share kept of the velocities beside those of the rigid body
-        // Momenta at the start, where nothing but gravity acts from outside.
+        // The momenta at the start. They are used where nothing but gravity acts from outside.
         glm::dvec3 momentum_before{0.0}, moment_before{0.0}, angular_before{0.0};
         bool is_closed = true;
-        // The motion of the island as one rigid body, and the spin that it must have.
+        // The motion of the island as one rigid body, and the spin that conserves its angular
+        // momentum.
         glm::dvec3 centre{0.0}, velocity{0.0}, spin{0.0}, spin_due{0.0};
 
         void add(const Account& other);
-        /// The energy that is allowed with a share of the velocities, J.
+        /// Returns the energy that is allowed with a share of the velocities, J.
         [[nodiscard]] double allowed_at(double of_velocities) const
         {
             return allowed + driven.within(std::max(0.0, passed - (1.0 - of_velocities) * motion));
@@ -86,7 +87,7 @@ private:
                                             Slot slot);
     /// Returns an island's angular momentum about its centre.
     [[nodiscard]] static glm::dvec3 about_centre(const Account& island);
-    /// A body before it moved.
+    /// The state of a body before it moved.
     struct Start {
         glm::dvec3 position{0.0};
         glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
@@ -109,7 +110,7 @@ private:
     Scratch<Account> accounts_;     // by solver index; then by the first body of an island
     Scratch<std::uint8_t> gaining_; // by solver index
     Islands islands_;
-    Bounded<Slot> slots_; // bodies whose outcome is looked at
+    Bounded<Slot> slots_; // the bodies whose outcome is checked
 };
 
 } // namespace hapnet::scene

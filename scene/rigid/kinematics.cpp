@@ -118,7 +118,7 @@ void Kinematics::begin_contacts(const Bodies& bodies, ContactSolver& solver,
 
 namespace {
 
-/// The vectors from the centres of two that touch to the place of the touch.
+/// The vectors from the centres of two touching bodies to the place of the touch.
 struct Arms {
     const glm::dvec3& of_body;
     const glm::dvec3& of_surface;

@@ -21,12 +21,12 @@ struct KinematicTick {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     bool moves = false;
 
-    /// The motion at a time within the tick: the mean, and the change about it.
+    /// Returns the motion at a time within the tick: the mean, and the change about it.
     [[nodiscard]] BodyMotion motion_at(double time, double tick) const;
 };
 
-/// The kinematic bodies' motions, in the order of their slots. While a tick lasts their lanes have
-/// the mean velocities, so that everything is found on the way that they really go.
+/// The kinematic bodies' motions, in the order of their slots. During a tick their lanes hold the
+/// mean velocities, so that contacts are found on the paths that the bodies really take.
 class Kinematics {
 public:
     Kinematics(const Bodies& bodies, const Scales& scales)
@@ -34,10 +34,11 @@ public:
     {}
 
     void begin_tick(const WorldConfig& config, WorldState& state);
-    /// Sets their motions, which nothing changes; they come after the awake bodies.
+    /// Sets the motions of the kinematic bodies, which impulses do not change. They come after the
+    /// awake bodies.
     void begin_contacts(const Bodies& bodies, ContactSolver& solver,
                         std::span<BodyIntegration> integrations) const;
-    /// Puts them where they come to.
+    /// Moves the kinematic bodies to their places at the end of the tick.
     void end_tick(WorldState& state);
 
     /// Returns the tick of a slot in [movable, moving).
@@ -54,8 +55,8 @@ private:
     Scratch<KinematicTick> ticks_;
 };
 
-/// Adds what kinematic bodies do to those that they push and carry. The force of a contact counts
-/// as constant over the tick, or as a blow at its end: whichever is more.
+/// Adds the work of kinematic bodies on the bodies that they push and carry. The force of a contact
+/// counts as constant over the tick or as a blow at its end, whichever gives more work.
 void add_driven_energy(ContactSolver& solver, std::span<BodyIntegration> integrations);
 
 } // namespace hapnet::scene

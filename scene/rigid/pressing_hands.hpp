@@ -13,8 +13,8 @@
 
 namespace hapnet::scene {
 
-/// A face that a hand is in front of and amid. It stays so as long as the body does not turn
-/// and the hand comes no farther from where this was found: what was found then holds.
+/// A face with a hand in front of its middle part. The result stays valid as long as the body does
+/// not turn and the hand moves no farther than `room` from the place where it was found.
 struct AmidFace {
     std::uint64_t turns = 0; // see SweptBox::turns
     glm::dvec3 offset{0.0};  // from the body's centre to the hand
@@ -23,9 +23,9 @@ struct AmidFace {
     double half = 0.0; // from the body's centre to the face
 };
 
-/// One or two hands that press a body amid faces, side by side in lanes, as long as they go on
-/// doing so: what they press and what they feel is what HandContacts would find, bit for bit. One
-/// hand stands in both lanes.
+/// One or two hands that press a body amid faces and go on doing so, side by side in lanes. Their
+/// forces are those that HandContacts would find, bit for bit. A single hand is stored in both
+/// lanes.
 class PressingHands {
 public:
     struct Hand {
@@ -39,15 +39,15 @@ public:
 
     [[nodiscard]] std::uint32_t hand(std::size_t lane) const { return hand_[lane]; }
     [[nodiscard]] const PressingSprings& springs() const { return springs_; }
-    /// True if a hand, one of these or not, may act as in the last tick. `near`: the bodies that it
-    /// may reach.
+    /// True if the hand, one of these or not, may act as in the last tick. `near` lists the bodies
+    /// that it may reach.
     [[nodiscard]] bool is_where_it_was(std::uint32_t hand, const HandInput& input,
                                        std::span<const PartId> near) const;
-    /// Finds the springs of this tick, and where the hands are from the body's centre; nullopt when
-    /// a hand is not amid its face any more, or does not press it.
+    /// Finds the springs of this tick, and the hands' places from the body's centre. Returns
+    /// nullopt when a hand is no longer amid its face or does not press it.
     [[nodiscard]] std::optional<TwoVectors> press(const WorldState& state, const SweptBox& now,
                                                   const glm::dvec3& velocity);
-    /// Reports the results to all hands, with the impulses on the body.
+    /// Reports the forces to all hands. `impulse` holds the springs' impulses on the body.
     void report(const WorldConfig& config, WorldState& state, const TwoVectors& impulse) const;
 
 private:

@@ -12,10 +12,11 @@ namespace hapnet::scene {
 
 namespace {
 
-/// A body that hits slower than this, times what gravity adds in a tick, does not bounce: it would
-/// be back within that many ticks.
+/// A body that hits more slowly than this, times the speed that gravity adds in a tick, does not
+/// bounce: it would be back within that many ticks.
 constexpr double bounce_threshold = 2.0;
-/// A point that does not hit pushes only when something would throw it this fast, in sizes a tick.
+/// A point that does not hit pushes only if something would otherwise throw it this fast, in sizes
+/// per tick.
 constexpr double inactive_speed = 1e9;
 
 struct Impact {
@@ -30,15 +31,14 @@ struct Approach {
     ContactVector offset; // m, rad: shift of the start that makes up for the time of those bounces
     double begin = 0.0;   // s: time of the last of these bounces
 
-    /// The gap of a point at the start of the tick, on that path.
+    /// Returns the gap of a point at the start of the tick, on that path.
     [[nodiscard]] double separation(const ContactBlock& block, std::size_t point) const
     {
         return block.separation[point] + block.normal_speed(offset, point);
     }
 };
 
-/// Returns when a point comes down on the surface. Its normal speed changes evenly from `from` to
-/// `to`.
+/// Returns when a point reaches the surface. Its normal speed changes linearly from `from` to `to`.
 std::optional<Impact> impact(double separation, double from, double to, double time_left)
 {
     if (from >= 0.0) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<Impact> impact(double separation, double from, double to, double t
     return Impact{time, -(from + acceleration * time)};
 }
 
-/// The first hit of the contact's points.
+/// Returns the first hit of the contact's points.
 Impact first_impact(const ContactBlock& block, const Approach& approach, double tick)
 {
     const double begin = approach.begin;
@@ -81,7 +81,7 @@ struct BounceTarget {
     glm::dvec3 arm;
 };
 
-/// The kinematic body that throws it.
+/// The kinematic body from which a body bounces.
 struct BounceSurface {
     const BodyIntegration& integration;
     glm::dvec3 arm;
@@ -117,8 +117,8 @@ BodyMotion motion_at(double share, const BodyMotion& from, const BodyMotion& to)
             from.spin + share * (to.spin - from.spin), glm::dvec3{0.0}};
 }
 
-/// Adds what the motion of a kinematic body does by a bounce: before add(), while the body's motion
-/// still lacks it.
+/// Adds the energy that a kinematic body gives by a bounce. Call it before add(), while the body's
+/// motion still lacks the bounce.
 void add_driven(const BounceTarget& target, const BounceSurface& surface, const Wrench& push,
                 double share)
 {
@@ -134,9 +134,8 @@ void add_driven(const BounceTarget& target, const BounceSurface& surface, const 
                             length(velocity_at(thrower, surface.arm))});
 }
 
-/// The share of an impulse that leaves the energy at most what it was. Points that bounce by
-/// themselves and friction can together ask for more (Kane, Levinson, 1985: a falling rod that
-/// slides).
+/// Returns the share of an impulse that adds no energy. Points that bounce separately and friction
+/// together can demand more energy than there is (Kane, Levinson, 1985: a falling rod that slides).
 double share_without_energy_gain(const ContactBlock& block, const ContactVector& velocity,
                                  const ContactVector& impulse)
 {
@@ -155,8 +154,9 @@ Approach approach_of(const ContactBlock& block, std::span<const BodyIntegration>
             std::max(a.last_bounce, b.last_bounce)};
 }
 
-/// True if forces act on the body that would differ after a bounce: hands, other contacts. They
-/// count as constant over the tick, so a bounce may gain energy against none of its velocities.
+/// True if forces act on the body that would differ after a bounce: those of hands or other
+/// contacts. They count as constant over the tick, so a bounce may gain energy relative to any of
+/// the body's velocities.
 bool is_driven(const BodyIntegration& body)
 {
     return body.has_hands || body.contact_impulse != glm::dvec3{0.0} ||
@@ -181,7 +181,7 @@ Restitution::Restitution(const WorldConfig& config, const Bodies& bodies, std::s
       heads_{is_needed_ ? bodies.moving + std::size_t{1} : 0}
 {}
 
-/// Lists the contacts that bounce, and those of each body.
+/// Lists the contacts that bounce, and the contacts of each body.
 void Restitution::begin(ContactSolver& solver, std::span<const BodyIntegration> integrations,
                         std::span<const std::uint8_t> picked)
 {
@@ -260,7 +260,7 @@ void Restitution::leave_coming(ContactBlock& block,
     }
 }
 
-/// The contact's bounce, if what bounced before it has left one.
+/// Makes the contact bounce, if the earlier bounces have left a bounce for it.
 double Restitution::bounce(ContactBlock& block, ContactSolver& solver,
                            std::span<BodyIntegration> integrations, const Scales& scales)
 {

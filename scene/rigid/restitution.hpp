@@ -13,24 +13,25 @@
 
 namespace hapnet::scene {
 
-/// Bounces happen at their moment within the tick, the earliest first, and each sees what those
-/// before it have changed: what a bounce throws against others bounces off them in the same tick.
-/// No bounce gains energy.
+/// Bounces of a tick. Each happens at its moment, the earliest first, and takes into account the
+/// changes by the earlier ones: a body that a bounce throws against others bounces off them in the
+/// same tick. No bounce gains energy.
 class Restitution {
 public:
-    /// `blocks`: how many contacts there may be.
+    /// `blocks` is the greatest number of contacts.
     Restitution(const WorldConfig& config, const Bodies& bodies, std::size_t blocks,
                 const Scales& scales);
 
     [[nodiscard]] bool is_needed() const { return is_needed_; }
 
-    /// Changes the tentative velocities and their means. Returns whether anything bounced. Where
-    /// bodies are `picked` (not 0 at their solver index), of their contacts alone.
+    /// Changes the tentative velocities and their means. Returns true if anything bounced. If
+    /// `picked` is not empty, only contacts of bodies bounce whose entry, by solver index, is not
+    /// 0.
     bool apply(ContactSolver& solver, std::span<BodyIntegration> integrations,
                Interventions& interventions, std::span<const std::uint8_t> picked = {});
 
-    /// Lowers the least speeds of the points that come down after the end of the tick: the solver
-    /// leaves their bounce to the next tick.
+    /// Lowers the least speeds of the points that touch only after the end of the tick, so that the
+    /// solver leaves their bounce to the next tick.
     void leave_coming(ContactBlock& block, std::span<const BodyIntegration> integrations) const;
 
 private:
@@ -43,7 +44,7 @@ private:
     struct Bouncing {
         std::uint32_t block = 0;
         std::uint32_t bounces = 0;
-        double time = never; // s, from the start of the tick: when its first point hits
+        double time = never; // s, from the start of the tick: when the first point touches
     };
 
     void begin(ContactSolver& solver, std::span<const BodyIntegration> integrations,
@@ -57,7 +58,7 @@ private:
     Scales scales_;
     bool is_needed_;
     Scratch<Bouncing> bouncing_;
-    // The contacts of each body: link 2 i is that of the i-th with its first body.
+    // The contacts of each body: link 2 i belongs to the first body of contact i.
     Scratch<std::uint32_t> next_;
     Scratch<std::uint32_t> heads_; // by solver index
 };

@@ -12,8 +12,8 @@ namespace hapnet::scene {
 namespace {
 
 constexpr double rest_s = 0.1;
-// The number of searches for islands in the time of rest, while a body could sleep and its
-// neighbours do not rest.
+// The number of searches for islands during the time of rest, while a body could sleep but its
+// neighbours are not at rest.
 constexpr double looks_per_rest = 4.0;
 constexpr double gravity_share = 0.1;
 constexpr double size_share = 1e-3;
@@ -25,7 +25,7 @@ double rest_speed(const WorldConfig& config, const BodyProperties& properties)
     return gravity_share * gravity * config.tick + size_share * std::sqrt(gravity * size);
 }
 
-/// The angular momentum at which no corner is faster than a speed.
+/// Returns the angular momentum at which no corner is faster than a speed.
 double rest_momentum(const BodyProperties& properties, double speed)
 {
     const glm::dvec3& easy = properties.inverse_inertia;
@@ -63,7 +63,7 @@ void Sleep::wake(PartId body, Bodies& bodies, PairFinder<broad_phase>& pair_find
     pair_finder.apply_changes();
 }
 
-/// Wakes everything in the body's island that sleeps, from neighbour to neighbour.
+/// Wakes every sleeping body of the body's island, from neighbour to neighbour.
 template <BroadPhase broad_phase>
 void Sleep::wake_island(BodyId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder)
 {
@@ -134,7 +134,7 @@ void Sleep::update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::ui
         if (island_rested_[islands_.root_of(id)] >= rest_ticks_) queue_.add(id);
     }
     // Bodies fall asleep in the order of their ids, so that the order of the slots depends less on
-    // the past.
+    // earlier ticks.
     std::sort(queue_.begin(), queue_.end());
     for (const BodyId id : queue_) fall_asleep(id, bodies, pair_finder);
     pair_finder.apply_changes();
@@ -168,7 +168,7 @@ bool Sleep::count_rest(const Bodies& bodies)
     return may_sleep;
 }
 
-/// The squared motion and turning of a body, in shares of the limits of rest.
+/// Returns the squared motion and rotation of a body, in shares of the limits of rest.
 double Sleep::motion_of(const Bodies& bodies, Slot slot) const
 {
     const glm::dvec3 v = bodies.velocity.at(slot), l = bodies.angular_momentum.at(slot);

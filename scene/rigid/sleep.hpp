@@ -12,29 +12,32 @@
 namespace hapnet::scene {
 
 /// Decides which bodies sleep. A body that has been at rest for a tenth of a second, together with
-/// everything movable that it touches, falls asleep: its velocity becomes exactly zero, its
-/// contacts keep their impulses, and it costs nothing until it is woken. Fixed bodies connect
-/// nothing. Two touch when their contact had an impulse in the last tick (touches() of its memory).
+/// all movable bodies that it touches, falls asleep. Its velocity becomes exactly zero, its
+/// contacts keep their impulses, and it costs nothing until it is woken. Fixed bodies do not
+/// connect islands. Two bodies touch when their contact had an impulse in the last tick (touches()
+/// of its memory).
 ///
-/// At rest: the centre, and the corners as they turn, no faster than a tenth of what gravity adds
-/// in a tick plus a thousandth of sqrt(gravity * size). Without gravity: not moving at all. A body
-/// that moves more than when this time began does not rest: a box on its edge tips.
+/// A body is at rest if its centre and its corners, as they turn, move no faster than a tenth of
+/// what gravity adds in a tick plus a thousandth of sqrt(gravity * size). Without gravity it must
+/// not move at all. A body that moves more than when its rest began is not at rest: a box on its
+/// edge tips.
 ///
-/// In a tick: wake() what a hand reaches or a push moves; wake_touched() once the manifolds are
-/// known; at the end of the tick, with the contacts' memories written, update().
+/// In each tick call wake() for bodies that a hand reaches or a push moves. Call wake_touched()
+/// when the manifolds are known. Call update() at the end of the tick, when the contacts' memories
+/// are written.
 class Sleep {
 public:
     Sleep(const WorldConfig& config, const Bodies& bodies);
 
-    /// Wakes a part's body and all that touches it, one through the other, and restarts its time at
-    /// rest. Slots change.
+    /// Wakes the body of a part and its whole island, and restarts their times at rest. Slots
+    /// change.
     template <BroadPhase broad_phase>
     void wake(PartId body, Bodies& bodies, PairFinder<broad_phase>& pair_finder);
 
-    /// Wakes the sleepers that an awake body touches which is not at rest, what touches them, and
-    /// so on: one that slept on would bear the others like a wall. `touching(index)` is true if the
-    /// pair's manifold of this tick has points. Returns true if it woke any. Each pair is looked at
-    /// once, and once more if it came to the list by a body that woke.
+    /// Wakes the sleeping bodies that touch an awake body that is not at rest, and their islands. A
+    /// body that stayed asleep would support the others like a wall. `touching(index)` is true if
+    /// the pair's manifold of this tick has points. Returns true if it woke any. Each pair is
+    /// examined once, and once more if a body that woke added it to the list.
     template <BroadPhase broad_phase, typename Touching>
     bool wake_touched(Bodies& bodies, PairFinder<broad_phase>& pair_finder, Touching touching)
     {
@@ -51,14 +54,15 @@ public:
         return bodies.awake != awake;
     }
 
-    /// Counts the time at rest of those awake and puts islands to sleep. `ticks`: of the world.
+    /// Counts the time at rest of the awake bodies and puts islands to sleep. `ticks` is the number
+    /// of ticks of the world.
     template <BroadPhase broad_phase>
     void update(Bodies& bodies, PairFinder<broad_phase>& pair_finder, std::uint64_t ticks);
 
     /// Restarts the time at rest of an awake body: a hand touches it.
     void keep_awake(const Bodies& bodies, BodyId body) { rested_[bodies.slot_of[body]] = 0.0; }
 
-    /// Ticks for which an awake body has been at rest.
+    /// Returns the number of ticks for which an awake body has been at rest.
     [[nodiscard]] double rested(Slot slot) const { return rested_[slot]; }
 
 private:
@@ -82,12 +86,12 @@ private:
 
     bool sleeping_;
     double rest_ticks_;      // ticks at rest before a body falls asleep
-    std::uint64_t interval_; // ticks between two looks at the islands
+    std::uint64_t interval_; // ticks between two checks of the islands
     // Values by slot, which move with their bodies.
     std::vector<double> speed2_;    // (m/s)^2: at rest up to this
     std::vector<double> momentum2_; // (kg m^2/s)^2: at rest up to this
     std::vector<double> rested_;    // ticks at rest so far
-    std::vector<double> motion_;    // motion when that rest began, in shares of what counts as rest
+    std::vector<double> motion_;    // motion when the rest began, in shares of the limits of rest
 
     Islands islands_;
     std::vector<double> island_rested_; // by the island's id: the least rested_ of its bodies

@@ -16,31 +16,34 @@ namespace hapnet::scene {
 
 namespace {
 
-// Contacts that a body has on average, at most: a heap of cubes has about six.
+// The greatest average number of contacts per body. A heap of cubes has about six.
 constexpr std::size_t contacts_per_body_max = 8;
 
-// A contact that misses by less than this share of what gravity adds in a tick is in balance.
+// A contact whose error is less than this share of the speed that gravity adds in a tick is in
+// balance.
 constexpr double velocity_tolerance = 1e-10;
-// The solver goes on until no contact changes its speed by more than this share of it ...
+// The solver continues until no contact changes its speed by more than this share of it ...
 constexpr double velocity_converged = 1e-6;
-// ... or until these limits (a stack takes 23 sweeps from nothing); the next tick goes on.
+// ... or until these limits (a stack takes 23 sweeps from zero); the next tick continues.
 constexpr std::uint32_t sweeps_min = 3, sweeps_max = 31, visits_max = 600;
 
-// Overlaps, in shares of the smallest half edge: what is left alone, what the solver goes on
-// for, and the most that is moved apart in one tick.
+// Overlaps, in shares of the smallest half edge: the tolerance, the change at which the solver
+// stops, and the greatest correction in one tick.
 constexpr double overlap_tolerance = 1e-9;
 constexpr double overlap_converged = 1e-6;
 constexpr double correction_max = 0.1;
 constexpr std::uint32_t overlap_sweeps_min = 7, overlap_visits_max = 200;
-// This share of an overlap is removed per tick: not all, so that contacts that contradict each
-// other come to rest.
+// The share of an overlap that is removed per tick. It is less than 1, so that contacts that
+// contradict each other come to rest.
 constexpr double correction_share = 0.3;
 
-// Surfaces that push each other and are not farther apart than this, in smallest half edges, touch.
-// The correction of overlaps leaves less; chasing it would keep heaps from coming to rest.
+// Surfaces that push each other and are nearer than this, in smallest half edges, touch. The
+// correction of overlaps leaves smaller gaps. Closing them completely would keep heaps from coming
+// to rest.
 constexpr double touch_distance = 2e-6;
 
-/// The least normal speed at which two surfaces that far apart do not overlap at the tick's end.
+/// Returns the least normal speed at which two surfaces at this distance do not overlap at the
+/// tick's end.
 double velocity_bias(const ContactBlock& block, std::size_t point, const Scales& scales)
 {
     const double separation = block.separation[point];
@@ -48,7 +51,7 @@ double velocity_bias(const ContactBlock& block, std::size_t point, const Scales&
     return separation > negligible ? -separation * scales.rate : 0.0;
 }
 
-/// The least mean normal speed that takes away a share of an overlap, or uses up a gap.
+/// Returns the least mean normal speed that removes a share of an overlap, or uses up a gap.
 double position_bias(const ContactBlock& block, std::size_t point, const Scales& scales)
 {
     const double separation = block.separation[point];
@@ -138,7 +141,7 @@ template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::on_body_shifted(WorldState& state, BodyId body)
 {
     steady_.is_likely = false;
-    // The bodies that it left and those that it now touches wake.
+    // This wakes the bodies that touched it, and those that it touches now.
     sleep_.wake(body, state.bodies, pairs_);
     pairs_.forget(state.bodies, body);
     boxes_.forget(state.bodies, body);
@@ -155,8 +158,9 @@ TickCost RigidStepper<broad_phase>::tick_cost_bound(const WorldConfig& config) c
 {
     const std::uint64_t pushed =
         std::min<std::uint64_t>(solver_.bodies_max(), config.hands.count * touched_per_hand_max);
-    // Overlaps are looked at once more where a body is held back, sleepers by what carries them, by
-    // what touches them and when that woke, velocities and springs where an island is solved again.
+    // Some work is done more than once: overlaps are solved again where a body is held back; pairs
+    // of sleepers are examined for kinematic bodies, for touching bodies and after waking;
+    // velocities and springs are solved again where an island is.
     return {.pairs = 4 * pairs_.pairs_max(),
             .contacts = solver_.blocks_max(),
             .visits = 2 * solver_.visits_bound(velocity_limits()) +
@@ -186,7 +190,7 @@ void RigidStepper<broad_phase>::update_pairs(const WorldState& state)
     boxes_.begin_tick();
 }
 
-/// Finds what the hands touch, and wakes it.
+/// Finds the bodies that the hands touch, and wakes them.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldState& state)
 {
@@ -214,7 +218,7 @@ void RigidStepper<broad_phase>::collide_hands(const WorldConfig& config, WorldSt
         sleep_.wake(spring.body, bodies, pairs_);
 }
 
-/// Wakes what is pushed, and what a moving body hits.
+/// Wakes bodies that are pushed, and bodies that a moving body hits.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
 {
@@ -228,7 +232,7 @@ void RigidStepper<broad_phase>::wake_disturbed(WorldState& state)
     sleep_.wake_touched(bodies, pairs_, are_touching);
 }
 
-/// Wakes what touches a body that moves by itself, and keeps it awake.
+/// Wakes bodies that touch a moving kinematic body, and keeps them awake.
 template <BroadPhase broad_phase>
 template <typename AreTouching>
 void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouching& are_touching)
@@ -250,7 +254,8 @@ void RigidStepper<broad_phase>::wake_carried(WorldState& state, const AreTouchin
     }
 }
 
-/// Kinematic bodies come after the awake ones; what does not move is 0.
+/// Returns a body's index in the solver. Kinematic bodies come after the awake ones; a body that
+/// does not move has index 0.
 template <BroadPhase broad_phase>
 SolverIndex RigidStepper<broad_phase>::index_of(const Bodies& bodies, Slot slot) const
 {
@@ -268,7 +273,7 @@ void RigidStepper<broad_phase>::begin_contacts(const WorldState& state)
     integrations_.resize(bodies.awake + kinematic + 1); // [0]: does not move, never written
 }
 
-/// Starts the tick of an awake body that something acts on.
+/// Starts the tick of an awake body on which something acts.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
 {
@@ -281,7 +286,7 @@ void RigidStepper<broad_phase>::activate(const Bodies& bodies, Slot slot)
     integrations_[slot + 1].least_near = properties.least_half;
 }
 
-/// A block for the solver; null without a point or room.
+/// Adds a block to the solver. Returns null without a point or without room.
 template <BroadPhase broad_phase>
 ContactBlock* RigidStepper<broad_phase>::add_contact(std::uint32_t points, ContactMemory& memory)
 {
@@ -307,7 +312,7 @@ void RigidStepper<broad_phase>::set_least_speeds(ContactBlock& block)
         block.speed_min[i] = velocity_bias(block, i, scales_);
 }
 
-/// As set_least_speeds(), for the mean velocities.
+/// Sets the least mean normal speeds, as set_least_speeds() does for the velocities.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_least_ways(ContactBlock& block)
 {
@@ -315,7 +320,7 @@ void RigidStepper<broad_phase>::set_least_ways(ContactBlock& block)
         block.speed_min[i] = position_bias(block, i, scales_);
 }
 
-/// A body that is locked along the normal presses on what it lies on all the same.
+/// Sets the load of a body that is locked along the normal. It presses on its support nevertheless.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_locked_load(const WorldConfig& config, const WorldState& state,
                                                 Slot slot, ContactBlock& block)
@@ -398,7 +403,7 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldConfig& config, WorldS
                                               {pair.b, boxes_.at(bodies, pair.b).box},
                                               swept.manifold);
         }
-        // Whatever becomes of them, ContinuousCollision looks at their ways.
+        // Whatever the result is, ContinuousCollision examines their paths.
         const double size =
             smallest_half(boxes_.at(bodies, pair.a).box, boxes_.at(bodies, pair.b).box);
         const auto note_near = [&](Slot slot) {
@@ -439,7 +444,7 @@ void RigidStepper<broad_phase>::collide_bodies(const WorldConfig& config, WorldS
     }
 }
 
-/// Keeps the impulses for the next tick's warm start, and counts the contacts that rub.
+/// Stores the impulses for the next tick's warm start, and counts the contacts with friction.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 {
@@ -459,8 +464,8 @@ void RigidStepper<broad_phase>::store_contact_impulses(const WorldState& state)
 }
 
 /// Changes the mean velocities so that nothing overlaps at the end of the tick. The velocities at
-/// the end stay as they are: nothing gains speed by being moved apart (nonlinear Gauss-Seidel).
-/// Returns whether anything is.
+/// the end stay as they are, so the correction adds no speed (nonlinear Gauss-Seidel). Returns true
+/// if anything was corrected.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::correct_positions(WorldState& state)
 {
@@ -471,14 +476,14 @@ bool RigidStepper<broad_phase>::correct_positions(WorldState& state)
     }
     const std::uint64_t visits = solver_.correct_positions(position_limits()).visits;
     state.tick_cost.visits += visits;
-    // A body that is thrown off its path is held back; the others go as far as that lets them.
+    // A body that is thrown off its path is held back. The others go as far as that allows.
     if (!hold_back(state)) return visits > 0;
     state.tick_cost.visits += solver_.correct_positions_again(position_limits()).visits;
     hold_back(state);
     return true;
 }
 
-/// Returns whether any body was thrown off its path.
+/// Holds back bodies that were thrown off their paths. Returns true if there were any.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::hold_back(WorldState& state)
 {
@@ -505,7 +510,7 @@ void RigidStepper<broad_phase>::integrate_free_bodies(WorldState& state)
                          [&](SlotRange range) { free_bodies_.integrate(bodies, range); });
 }
 
-/// Lets no body pass through another, and wakes what was hit on the way.
+/// Lets no body pass through another, and wakes the bodies that were hit on the way.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_continuous(const WorldConfig& config, WorldState& state)
 {

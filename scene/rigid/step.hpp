@@ -23,14 +23,14 @@ namespace hapnet::scene {
 /// Bodies that rotate, rest on each other and are pushed by hands; step() names the stages in
 /// order.
 ///
-/// Contact forces are constant over a tick: last tick's first (warm start), then what the solver
-/// changes in them so that nothing goes into anything at the tick's end. So what rests, slides
-/// straight on or is pushed steadily moves exactly. Bounces happen at their moment within the tick.
-/// Overlaps are moved apart without a gain of speed.
+/// Contact forces are constant over a tick: last tick's forces (warm start) plus the changes by the
+/// solver, which prevent penetration at the tick's end. So bodies that rest, slide straight on or
+/// are pushed steadily move exactly. Bounces happen at their moment within the tick. Overlaps are
+/// corrected without a gain of speed.
 template <BroadPhase broad_phase>
 class RigidStepper {
 public:
-    /// Fixed bodies and hands have to be found, too, where there is but one movable body.
+    /// Fixed bodies and hands have to be found even where there is only one movable body.
     static constexpr BroadPhase search =
         broad_phase == BroadPhase::grid ? BroadPhase::grid : BroadPhase::all_pairs;
 
@@ -41,13 +41,13 @@ public:
     void on_body_placed(WorldState& state, BodyId body);
     void on_body_shifted(WorldState& state, BodyId body);
     void wake(WorldState& state, BodyId body);
-    /// The most that a tick can take.
+    /// Returns the greatest cost that a tick can have.
     [[nodiscard]] TickCost tick_cost_bound(const WorldConfig& config) const;
 
     /// Counts of the work done, for tests and measurements.
     struct Counts {
         std::uint64_t contacts_left_out = 0; // contacts beyond the bound
-        std::uint64_t steady_ticks = 0;      // ticks in which everything went on as before
+        std::uint64_t steady_ticks = 0;      // ticks that went on as the tick before
         std::uint32_t contacts = 0;          // contacts of the last tick
         std::uint32_t sweeps = 0;            // sweeps of the last tick
         double change = 0.0;                 // m/s: change by the last sweep
@@ -56,7 +56,8 @@ public:
     [[nodiscard]] const PairFinder<search>& pairs() const { return pairs_; }
 
 private:
-    // Instead of the stages, where everything goes on.
+    // Replaces the stages in a tick that goes on as the last one. Returns false if the stages are
+    // needed.
     bool step_steadily(const WorldConfig& config, WorldState& state);
     [[nodiscard]] bool finds_the_same(const WorldConfig& config, WorldState& state);
     [[nodiscard]] bool can_be_steady(const WorldConfig& config, const WorldState& state) const;
@@ -117,8 +118,8 @@ private:
     Restitution restitution_;
     IslandEnergy energy_;
     ContinuousCollision continuous_;
-    /// The results of the last tick for a tick in which everything goes on as before. All other
-    /// results stay where the last tick left them.
+    /// The results of the last tick for a tick that goes on as the last one. All other results stay
+    /// where the last tick left them.
     struct Steady {
         bool is_possible = false; // the scene allows steady ticks
         bool is_likely = false;   // the last tick was in balance

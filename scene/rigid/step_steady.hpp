@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A tick in which everything goes on, which is what most ticks are: one body lies on a plane, rests
-// there or slides, and one or two hands press it amid the faces that they pressed before. Then the
-// stages of step() have one body and one contact, whose parts are where the last tick left them,
-// and forces that are in balance. The bits are those of step(): each number is found by the same
-// operations. Where anything turns out to be new nothing has been done yet, and the tick begins
-// again. Part of step.cpp, which makes the steppers.
+// Steady ticks: ticks that go on as the one before, as most ticks do. One body rests or slides on a
+// plane, and one or two hands press it amid the faces that they pressed before. Then the stages of
+// step() have one body and one contact, whose data are where the last tick left them, and balanced
+// forces. The bits are those of step(): each number is found by the same operations. If a tick
+// turns out not to be steady, nothing has been changed yet, and step() runs it from its start. Part
+// of step.cpp, which makes the steppers.
 #include "scene/hand/constant_contact.hpp"
 #include "scene/rigid/step.hpp"
 #include "scene/solver/block_solver.hpp"
@@ -17,7 +17,7 @@
 
 namespace hapnet::scene {
 
-/// True if the scene has nothing that rules out ticks in which everything goes on as before.
+/// True if the scene has nothing that rules out steady ticks.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::can_be_steady(const WorldConfig& config,
                                               const WorldState& state) const
@@ -28,14 +28,14 @@ bool RigidStepper<broad_phase>::can_be_steady(const WorldConfig& config,
            !hand_contacts_.any_friction() && config.hands.count > 0;
 }
 
-/// Finds out if the next tick may go on as the last one, which ended in balance.
+/// Finds out if the next tick may be steady. The last tick must have ended in balance.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::look_for_steadiness(const WorldConfig& config,
                                                     const WorldState& state)
 {
     const Bodies& bodies = state.bodies;
     const BodyProperties& body = bodies.properties[0];
-    // The solver made one visit for velocities and none for overlaps.
+    // The solver visited the contact once for velocities and never for overlaps.
     const bool is_alone = bodies.awake == 1 && state.pushed.is_empty() && pairs_.pairs().empty() &&
                           !any_far_ && state.tick_cost.contacts == 1 && state.tick_cost.visits == 1;
     if (!is_alone || body.turning != Turning::free || !body.is_isotropic || body.drag > 0.0) return;
@@ -47,7 +47,7 @@ void RigidStepper<broad_phase>::look_for_steadiness(const WorldConfig& config,
                dynamics_of(integration, state, 0, solver_.response(1), config)};
 }
 
-/// True if the hands and the plane touch the body as they did.
+/// True if the hands and the plane touch the body as in the last tick.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldState& state)
 {
@@ -78,7 +78,8 @@ bool RigidStepper<broad_phase>::finds_the_same(const WorldConfig& config, WorldS
     return contact.prepare_again(solver_.blocks()[0], pair.memory);
 }
 
-/// False when it has to begin again: then nothing has been done but what step() does again.
+/// Runs a steady tick. Returns false if the tick is not steady. Then only work has been done that
+/// step() does again.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldState& state)
 {
@@ -91,7 +92,7 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
     const auto& [push, turn] = block.start_push;
     const glm::dvec3 torque = glm::dvec3{0.0} + (glm::cross(block.arm_b, push) + turn);
     steady_.dynamics.torque = per_second * torque;
-    // The velocities at the end, and the mean ones.
+    // The velocities at the end of the tick, and the mean velocities.
     const MovingBody start{bodies.position.at(0), bodies.orientation.at(0), bodies.velocity.at(0),
                            bodies.angular_momentum.at(0)};
     MovingBody body = start;
@@ -122,7 +123,7 @@ bool RigidStepper<broad_phase>::step_steadily(const WorldConfig& config, WorldSt
         goes_far(properties, mean, scales_))
         return false;
 
-    // Nothing turned out to be new, so that the tick is complete.
+    // The tick is steady and complete.
     ContactMemory& memory = pairs_.plane_pair(pairs_.plane_pairs()[0]).memory;
     ++memory.ticks;
     memory.normal_impulse_of_tick = push_sum + 0.0;

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The velocities of a tick: what acts on bodies from outside, and what their contacts change. Part
-// of step.cpp, which makes the steppers.
+// The stages that find the velocities of a tick: the effects of outside forces, and the changes by
+// contacts. Part of step.cpp, which makes the steppers.
 #include "scene/rigid/step.hpp"
 
 namespace hapnet::scene {
 
-/// Finds the velocities of the active bodies at the end of the tick, without what their contacts
-/// have to change.
+/// Finds the velocities of the active bodies at the end of the tick, without the changes by their
+/// contacts.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::integrate_velocities(const WorldConfig& config, WorldState& state)
 {
@@ -57,8 +57,8 @@ void RigidStepper<broad_phase>::integrate_hand_springs_on(const WorldConfig& con
     state.tick_cost.spring_rows += integration.hand_rows;
 }
 
-/// Finds the velocities at the end of the tick at which nothing goes into anything, and from them
-/// the mean velocities. Returns whether last tick's contact forces had to change for that.
+/// Finds the velocities at the end of the tick at which nothing penetrates, and from them the mean
+/// velocities. Returns true if last tick's contact forces had to change for that.
 template <BroadPhase broad_phase>
 bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
 {
@@ -79,7 +79,7 @@ bool RigidStepper<broad_phase>::solve_velocities(TickCost& cost)
     return !outcome.in_balance;
 }
 
-/// From the velocities at the end.
+/// Sets the mean motions from the velocities at the end of the tick.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::set_mean_motions()
 {
@@ -93,10 +93,10 @@ void RigidStepper<broad_phase>::set_mean_motions()
     }
 }
 
-/// Solves again, without warm start, islands that gain energy. Last tick's contact forces count as
+/// Solves islands that gain energy again, without a warm start. Last tick's contact forces count as
 /// constant forces. They may be wrong when the bodies that bore them are gone or a wedge has
-/// opened, and the sweeps may end before these forces have decayed: they then drive bodies. Without
-/// a warm start every visit takes energy away, so that stopping at any time is valid.
+/// opened. If the sweeps end before these forces have decayed, the forces drive bodies. Without a
+/// warm start every visit removes energy, so the solver may stop at any time.
 template <BroadPhase broad_phase>
 void RigidStepper<broad_phase>::solve_anew_what_gains(const WorldConfig& config, WorldState& state)
 {

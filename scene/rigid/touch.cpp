@@ -11,7 +11,7 @@ namespace hapnet::scene {
 
 namespace {
 
-/// An impulse, and what it does.
+/// An impulse, and its effect.
 struct Answer {
     ContactVector impulse{};
     double share = 1.0; // share of the impulse that gains no energy
@@ -51,8 +51,9 @@ ContactVector touch_impulse(ContactBlock& block, const Toucher& a, const Toucher
     if (!any) return {};
     build_matrix(block, a.response, b.response);
     Answer answer = answer_of(block, before);
-    // A bounce with friction may ask for more energy than there is (Kane and Levinson, 1985), and
-    // a slip may have no answer. The touch is smooth then, which always has one.
+    // A bounce with friction may require more energy than there is (Kane and Levinson, 1985), and a
+    // slip may have no solution. Then the touch is computed without friction, which always has a
+    // solution.
     if (block.friction != 0.0 && !(answer.parts && answer.share == 1.0)) {
         block.friction = 0.0;
         answer = answer_of(block, before);

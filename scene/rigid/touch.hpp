@@ -7,7 +7,7 @@
 
 namespace hapnet::scene {
 
-/// A body as it is at a touch. A kinematic one moves, with no response.
+/// The state of a body at a touch. A kinematic body moves but does not respond.
 struct Toucher {
     bool moves = false;
     glm::dvec3 centre{0.0};
@@ -15,9 +15,9 @@ struct Toucher {
     BodyMotion motion;
 };
 
-/// The impulse at a moment at which two touch: each point that approaches faster than
-/// `bounces_from` bounces, and none approaches afterwards; no energy is gained. Zero when no point
-/// approaches. Builds the block's matrix.
+/// Returns the impulse of a touch at its moment. Each point that approaches faster than
+/// `bounces_from` bounces, and no point approaches afterwards. No energy is gained. The impulse is
+/// zero when no point approaches. Builds the block's matrix.
 [[nodiscard]] ContactVector touch_impulse(ContactBlock& block, const Toucher& a, const Toucher& b,
                                           double bounces_from);
 

@@ -65,8 +65,8 @@ void Anderson::learn(std::span<const double> in, std::span<const double> out)
     ++seen_;
 }
 
-/// Returns the products with each column of steps_. A sum waits for itself at every step, so they
-/// go side by side, also those of columns that are not known yet.
+/// Returns the products with each column of steps_. A single sum would wait for itself at every
+/// step, so the sums are computed in parallel, also those of columns that are not filled yet.
 std::array<double, Anderson::depth> Anderson::products_with(const double* one) const
 {
     std::array<double, depth> sums{};
@@ -86,7 +86,8 @@ std::array<double, Anderson::depth> Anderson::weights()
     Square<depth> matrix{};
     std::array<double, depth> wanted{};
     const std::array<double, depth> missed = products_with(last_step_.data());
-    // The newest first: of columns that depend on each other it is the one that counts.
+    // The newest column comes first: of columns that depend on each other it is the one that
+    // counts.
     const auto column_of = [&](std::size_t age) { return (seen_ - 2 - age) % depth; };
     for (std::size_t i = 0; i < columns; ++i) {
         for (std::size_t j = 0; j <= i; ++j) matrix[i][j] = products_[column_of(i)][column_of(j)];

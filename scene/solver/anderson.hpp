@@ -11,28 +11,28 @@
 
 namespace hapnet::scene {
 
-/// Makes a slowly converging iteration x -> g(x) fast: the next x is the mixture of the last few
+/// Accelerates a slowly converging iteration x -> g(x). The next x is the mixture of the last few
 /// results whose steps cancel best (D. G. Anderson, J. ACM 12, 1965). Where the iteration is
-/// linear, that is GMRES (Walker, Ni, SIAM J. Numer. Anal. 49, 2011): as many steps as there are
-/// different modes of convergence, one for a heavy body on a light one.
+/// linear, that is GMRES (Walker, Ni, SIAM J. Numer. Anal. 49, 2011): it needs as many steps as
+/// there are different modes of convergence, for example one for a heavy body on a light one.
 class Anderson {
 public:
     static constexpr std::size_t depth = 6;
 
     explicit Anderson(std::size_t size_max);
-    /// Has the room but not what is in it.
+    /// Makes the same room, but copies no results.
     Anderson(const Anderson& other) : Anderson{other.size_max_} {}
     Anderson(Anderson&&) noexcept = default;
     Anderson& operator=(const Anderson& other);
     Anderson& operator=(Anderson&&) noexcept = default;
     ~Anderson() = default;
 
-    /// Forgets, for a problem of another size.
+    /// Forgets all results and begins a problem of `size` unknowns.
     void begin(std::size_t size);
 
     /// Mixes the outputs of the iterations so far. The last one had the input `in` and the output
-    /// `out`. The mixture is in `next`, which may be `in` or `out`. Returns false if it is just
-    /// `out`.
+    /// `out`. Writes the mixture to `next`, which may be `in` or `out`. Returns false if the
+    /// mixture is just `out`.
     bool mix(std::span<const double> in, std::span<const double> out, std::span<double> next);
 
 private:

@@ -27,7 +27,7 @@ Ldl<5> factors_of(const ContactBlock& block, const PointSet& set)
     return Ldl<5>{part};
 }
 
-/// True if the last set of that size was another one.
+/// True if the last set of that size was a different one. Notes the new set.
 bool is_new(BlockFactors& factors, const PointSet& set)
 {
     std::uint32_t& known = factors.sets[set.count - 1];
@@ -36,9 +36,11 @@ bool is_new(BlockFactors& factors, const PointSet& set)
     return is_new;
 }
 
-// The factors that solving a block takes, found once and kept in it. They need its matrix.
+// The factors that are needed to solve a block. They are found once and stored in it. They need its
+// matrix.
 
-/// Factors for one or two points' normal speeds, then friction's: from impulses to velocities.
+/// Returns the factors for one or two points' normal speeds and friction: from impulses to
+/// velocities.
 const Ldl<5>& few_factors(ContactBlock& block, const PointSet& set)
 {
     Ldl<5>& few = block.factors.few[set.count - 1];
@@ -46,7 +48,7 @@ const Ldl<5>& few_factors(ContactBlock& block, const PointSet& set)
     return few;
 }
 
-/// Factors of the whole matrix.
+/// Returns the factors of the whole matrix.
 const Ldl<6>& whole_factors(ContactBlock& block)
 {
     BlockFactors& factors = block.factors;
@@ -55,7 +57,7 @@ const Ldl<6>& whole_factors(ContactBlock& block)
     return factors.whole;
 }
 
-/// The plane through three or four points.
+/// Returns the plane through three or four points.
 const PlaneFit& fit_of(ContactBlock& block, const PointSet& set)
 {
     PlaneFit& fit = block.factors.fits[set.count - 3];
@@ -63,7 +65,7 @@ const PlaneFit& fit_of(ContactBlock& block, const PointSet& set)
     return fit;
 }
 
-/// The outermost two of points on a line: they determine the rest.
+/// Returns the two outermost of points on a line. They determine the others.
 PointSet outermost(const ContactBlock& block, const PlaneFit& fit)
 {
     const auto& along = fit.is_along_1() ? block.along_1 : block.along_2;
@@ -80,7 +82,7 @@ PointSet outermost(const ContactBlock& block, const PlaneFit& fit)
     return two;
 }
 
-/// The largest response of the slip to friction.
+/// Returns the largest response of the slip to friction.
 double slip_response(const ContactBlock& block)
 {
     const double arm = block.torsion_arm;
@@ -92,7 +94,7 @@ double slip_response(const ContactBlock& block)
                      m[5][5] * arm * arm + coupled_1 + coupled_2});
 }
 
-/// A step of friction over the slip that does not overshoot.
+/// Returns a step of friction per slip that does not overshoot.
 double slip_step(ContactBlock& block)
 {
     double& step = block.factors.slip_step;
@@ -121,7 +123,7 @@ public:
           answer_{block.impulse}
     {}
 
-    /// Begins again; it was made with the same velocity.
+    /// Begins again with another velocity, as if it had been made with it.
     void begin_again(const ContactVector& velocity, const ContactVector& start)
     {
         answer_ = block_.impulse;
@@ -129,11 +131,11 @@ public:
         now_ = velocity;
         is_at_limit_ = has_settled_ = false;
     }
-    /// True if slip() has found the answer.
+    /// True if slip() has found the solution.
     [[nodiscard]] bool has_settled() const { return has_settled_; }
     [[nodiscard]] const ContactImpulse& answer() const { return answer_; }
     [[nodiscard]] const ContactVector& impulse() const { return modal_; }
-    /// The velocities without the contact's own impulses.
+    /// Returns the velocities without the contact's own impulses.
     [[nodiscard]] const ContactVector& free() const { return free_; }
 
     void scale(double share)
@@ -143,15 +145,18 @@ public:
         modal_ = contact_vector(block_, answer_);
     }
 
-    /// Sticking contact. False when something would pull or friction would pass its limit.
+    /// Solves a sticking contact. Returns false when something would pull or friction would exceed
+    /// its limit.
     bool stick(double tolerance);
-    /// Slipping or frictionless contact: the normal impulses for the friction as it is.
+    /// Solves a slipping or frictionless contact: finds the normal impulses for the present
+    /// friction.
     void push(double tolerance)
     {
         set_given();
         push_for_friction(tolerance);
     }
-    /// Slipping contact, in at most that many rounds. False when friction does not reach its limit.
+    /// Solves a slipping contact, in at most `rounds_max` rounds. Returns false when friction does
+    /// not reach its limit.
     bool slip(double tolerance, int rounds_max);
 
 private:
@@ -166,7 +171,7 @@ private:
     void hold_few(const PointSet& set);
     template <std::size_t points, std::size_t frictions>
     void hold_exactly(const PointSet& set);
-    /// Finds the first velocities without the normal impulses: once for each friction.
+    /// Finds the velocities without the normal impulses, once for each friction.
     void set_given()
     {
         const auto& m = block_.matrix;
@@ -342,7 +347,7 @@ bool Trial::stick(double tolerance)
     return opens(tolerance);
 }
 
-/// True if the points are at their least speeds or faster, with the answer as it is.
+/// True if all points are at their least speeds or faster, with the present solution.
 bool Trial::opens(double tolerance)
 {
     set_given();
@@ -374,7 +379,7 @@ void Trial::push_for_friction(double tolerance)
     move_normals();
 }
 
-/// The largest friction in that direction, where it is more than the normal impulses allow.
+/// Returns friction in this direction, reduced to the limit that the normal impulses allow.
 Friction Trial::within_limit(Friction f)
 {
     const double limit = block_.friction * load();
@@ -387,7 +392,7 @@ Friction Trial::within_limit(Friction f)
     return f;
 }
 
-/// Moves friction toward the direction against the slip; returns by how much.
+/// Moves friction toward the direction against the slip. Returns the change.
 double Trial::slip_once(double step)
 {
     const double arm = block_.torsion_arm;
@@ -419,7 +424,7 @@ bool Trial::slip(double tolerance, int rounds_max)
     return reached;
 }
 
-/// The part of such speeds that may be rounding, m/s.
+/// Returns the part of such speeds that may be rounding, m/s.
 double rounding_of(const ContactBlock& block, const ContactVector& velocity)
 {
     constexpr double share = 1e-13;
@@ -428,10 +433,10 @@ double rounding_of(const ContactBlock& block, const ContactVector& velocity)
                         (std::abs(velocity[1]) + std::abs(velocity[2]) + std::abs(velocity[5])));
 }
 
-/// The share of an answer that is taken. Against the least speeds an exact answer does no work at
-/// the end (points that push are at theirs, friction opposes the slip), so it leaves less energy
-/// than no impulse would. What rounding or a round too few made of it may not leave more: then the
-/// share that leaves least.
+/// Returns the share of a solution that is applied. Against the least speeds an exact solution does
+/// no work at the end (points that push are at theirs, friction opposes the slip), so it leaves
+/// less energy than no impulse would. A solution with rounding errors or with too few rounds must
+/// not leave more. If it would, the share that leaves least is applied.
 double dissipative_share(const ContactBlock& block, const Trial& trial)
 {
     EnergyOfShare energy = energy_of(block, trial.impulse(), trial.free());
@@ -500,7 +505,7 @@ ContactVector solve(ContactBlock& block, const ContactVector& velocity, double t
     if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
     const double still = std::max(tolerance, rounding_of(block, velocity));
     constexpr int rounds = 8;
-    // A block that slipped at the end of the last tick mostly slips on.
+    // A block that slipped at the end of the last tick usually continues to slip.
     const bool slips = is_slipping(block, velocity, still);
     Trial first{block, velocity};
     const ContactVector start = first.impulse();
@@ -524,7 +529,7 @@ ContactVector iterate(ContactBlock& block, const ContactVector& velocity, double
 {
     if (block.friction == 0.0) return solve_normals(block, velocity, tolerance);
     const double still = std::max(tolerance, rounding_of(block, velocity));
-    // A block that slipped mostly slips on.
+    // A block that slipped usually continues to slip.
     bool& slipped = block.factors.slipped;
     Trial first{block, velocity};
     const ContactVector start = first.impulse();

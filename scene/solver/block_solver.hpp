@@ -6,7 +6,7 @@
 
 namespace hapnet::scene {
 
-/// True if the impulses are an answer already, to `tolerance` m/s.
+/// True if the impulses already solve the block, to `tolerance` m/s.
 [[nodiscard]] bool is_solved(const ContactBlock& block, const ContactVector& velocity,
                              double tolerance);
 
@@ -14,17 +14,18 @@ namespace hapnet::scene {
 [[nodiscard]] bool is_slipping(const ContactBlock& block, const ContactVector& velocity,
                                double tolerance);
 
-/// True if the normal impulses are an answer already, without regard to friction.
+/// True if the normal impulses already solve the block, without regard to friction.
 [[nodiscard]] bool normals_are_solved(const ContactBlock& block, const ContactVector& velocity,
                                       double tolerance);
 
 /// Finds the impulses for which no point is slower than its least normal speed, none pulls, and
-/// friction holds or opposes the slip at its limit: directly where the contact sticks or slides
-/// without friction, by iterations where it slips. Needs the matrix. Returns the change.
+/// friction sticks or opposes the slip at its limit. The solution is direct where the contact
+/// sticks or slides without friction, and by iterations where it slips. It needs the matrix.
+/// Returns the change.
 [[nodiscard]] ContactVector solve(ContactBlock& block, const ContactVector& velocity,
                                   double tolerance);
 
-/// Comes nearer to the result of solve() at less cost: one iteration where the contact slips.
+/// Approaches the result of solve() at less cost: by one iteration where the contact slips.
 [[nodiscard]] ContactVector iterate(ContactBlock& block, const ContactVector& velocity,
                                     double tolerance);
 

@@ -48,10 +48,10 @@ glm::dvec3 friction_impulse_of(const ContactBlock& block)
     return block.impulse.tangent_1 * block.tangent_1 + block.impulse.tangent_2 * block.tangent_2;
 }
 
-/// Returns the share of a tick's correction to keep. A small correction also stops the speed that
-/// has gathered since the last one. If it were kept as a whole, it would be too large by that part
+/// Returns the share of a tick's correction to store. A small correction also stops the speed that
+/// has accumulated since the last correction. Stored as a whole it would be too large by that part
 /// in the next tick, and a contact in balance would be corrected to and fro again and again. Each
-/// tick lacked an even share of it.
+/// of the ticks since then needed an equal share of it.
 double share_to_keep(const ContactBlock& block, double weight, ContactMemory& memory)
 {
     constexpr double small = 1e-8;
@@ -72,7 +72,7 @@ struct Jacobian {
     glm::dvec3 angular;
 };
 
-// Rows that push along something; the others only turn.
+// The rows that push along a direction. The other rows only turn.
 constexpr std::array<std::size_t, 3> pushing_rows{0, 3, 4};
 
 void add_body(Square<6>& matrix, const std::array<Jacobian, 6>& rows, const BodyResponse& body)
@@ -104,8 +104,8 @@ std::array<Jacobian, 6> jacobian(const ContactBlock& block, const glm::dvec3& ar
 // The share of a body's response along a normal, or about a lever, below which it counts as locked.
 constexpr double hair = 1e-6;
 
-/// True if a body's locks leave it almost no motion along the normal. Then it counts as locked:
-/// else it would be thrown aside as by a wedge.
+/// True if a body's locks leave it almost no motion along the normal. Then it counts as locked.
+/// Otherwise it would be thrown aside as by a wedge.
 bool is_nearly_locked_along(const glm::dvec3& normal, const glm::dvec3& inverse_mass)
 {
     const double most = std::max(inverse_mass.x, std::max(inverse_mass.y, inverse_mass.z));
@@ -145,7 +145,7 @@ ContactImpulse last_impulse(std::span<const std::uint32_t> features, const Tange
     ContactImpulse impulse;
     bool any = false;
     for (std::uint32_t i = 0; i < features.size(); ++i) {
-        // Mostly they are the same in the same order.
+        // Usually the features are the same in the same order.
         const bool is_same = i < memory.count && memory.feature[i] == features[i];
         for (std::uint32_t j = is_same ? i : 0; j < memory.count; ++j) {
             if (memory.feature[j] != features[i]) continue;
@@ -215,7 +215,7 @@ void forget_impulses(ContactBlock& block)
 
 namespace {
 
-/// The motion of `b` relative to `a` where they touch.
+/// The motion of `b` relative to `a` at the contact.
 struct Slip {
     glm::dvec3 velocity{0.0}, spin{0.0};
 };
@@ -252,15 +252,15 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                               const glm::dvec3& spin_b, double tick)
 {
     block.centripetal_velocity = {};
-    // A body that hardly turns: less than rounding, and less than a contact may miss.
+    // A body hardly turns if it turns less than rounding, and less than the tolerance of a contact.
     constexpr double hardly = 1e-10; // radians
     const auto hardly_turns = [&](const glm::dvec3& spin) {
         return tick * tick * glm::dot(spin, spin) <= hardly * hardly;
     };
     block.turns = !hardly_turns(spin_a) || !hardly_turns(spin_b);
-    if (!block.turns) return; // all least speeds are met by standing still
+    if (!block.turns) return; // standing still meets all least speeds
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
-        // For a body that rotates far in a tick this term alone is wrong: it fades out.
+        // For a body that rotates far in a tick this term alone is wrong, so it fades out.
         constexpr double far = 0.1; // radians
         const double fades = tick * tick * glm::dot(spin, spin) / (far * far);
         if (fades == 0.0 || fades >= 1.0) return;
@@ -280,14 +280,14 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
         block.centripetal_velocity[4] += anchor.z;
     };
     // The touching point of a round body always has the same distance from its core, whichever way
-    // that turns.
+    // the core turns.
     const auto core_arm = [&](const glm::dvec3& arm, double rounding) {
         return rounding != 0.0 ? arm + rounding * block.normal : arm;
     };
     if (block.b != 0) add(spin_b, core_arm(block.arm_b, block.rounding_b), tick);
     if (block.a != 0) add(spin_a, core_arm(block.arm_a, -block.rounding_a), -tick);
-    // A contact that stands still meets every limit: so impulses that contradict each other, as
-    // where a body is squeezed while it turns, have an end.
+    // A contact that stands still meets every limit. So impulses that contradict each other, as
+    // where a body is squeezed while it turns, come to an end.
     for (std::size_t i = 0; i < block.count; ++i) {
         block.speed_min[i] =
             std::min(block.speed_min[i], block.normal_speed(block.centripetal_velocity, i));
@@ -333,7 +333,7 @@ void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse
         std::array<Jacobian, 6> all = jacobian(block, arm);
         if (!is_nearly_locked_along(block.normal, body.inverse_mass)) return all;
         all[0].linear = glm::dvec3{0.0};
-        // Nor does a push through its centre turn a sphere: what is left is rounding.
+        // A push through its centre does not turn a sphere either: the rest is rounding.
         constexpr double hardly = 1e-9;
         glm::dvec3& lever = all[0].angular;
         const bool is_central =

@@ -33,9 +33,10 @@ struct BodyMotion {
 /// The solver's index of a body; 0 stands for everything that does not move.
 using SolverIndex = std::uint32_t;
 
-/// Six numbers of a contact in its own frame, about its anchor: along the normal, about the first
-/// and the second tangent; along the first and the second tangent, about the normal. The first
-/// three are what points that only push can do, the others are friction.
+/// Six numbers of a contact in its own frame, about its anchor. The first three are along the
+/// normal, about the first tangent and about the second tangent. The last three are along the first
+/// tangent, along the second tangent and about the normal. Points that only push can produce the
+/// first three; the others are friction.
 using ContactVector = std::array<double, 6>;
 
 /// The impulses of a contact, N s and N m s.
@@ -57,11 +58,11 @@ struct Wrench {
     return push.impulse == glm::dvec3{0.0} && push.angular == glm::dvec3{0.0};
 }
 
-/// Factors of a block that may be needed again: valid as long as its matrix is.
+/// Factors of a block that may be needed again. They are valid as long as the block's matrix is.
 struct BlockFactors {
     Ldl<6> whole{}; // factors of the whole matrix: three or four points, and friction
-    // For sets of one, of two, of three, of four points, the one that was met last: which, in bits,
-    // or 0 for none; factors for it and friction, or its plane.
+    // For sets of one, two, three and four points: the set of that size that was used last, in
+    // bits, or 0 for none. `few` has the factors for it and friction; `fits` has its plane.
     std::array<std::uint32_t, manifold_points_max> sets{};
     std::array<Ldl<5>, 2> few{};
     std::array<PlaneFit, 2> fits{};
@@ -70,15 +71,15 @@ struct BlockFactors {
     double slip_step = 0.0; // step of friction per slip; 0: not known
 };
 
-/// One manifold to be solved as a whole: up to four points that push, and friction as one vector
-/// and a torsion at the anchor, which is where the pressure's centre was last tick.
+/// One manifold that is solved as a whole: up to four points that push, and friction as one vector
+/// and a torsion at the anchor. The anchor is the centre of pressure of the last tick.
 struct ContactBlock {
     SolverIndex a = 0;
     SolverIndex b = 0;
     std::uint32_t count = 0;
     double friction = 0.0;
     double size = 0.0;        // m: the smallest half edge of the two bodies
-    double torsion_arm = 0.0; // metres: the torsion's limit over the friction's
+    double torsion_arm = 0.0; // metres: ratio of the torsion's limit to the friction's limit
     glm::dvec3 normal{0.0}, tangent_1{0.0}, tangent_2{0.0};
     glm::dvec3 arm_a{0.0}, arm_b{0.0};         // from the centres to the anchor
     double rounding_a = 0.0, rounding_b = 0.0; // from the anchor to the cores of round bodies
@@ -90,10 +91,10 @@ struct ContactBlock {
     std::array<double, manifold_points_max> start_impulse{}; // normal impulses at the start
     Wrench start_push{};                                     // all impulses at the start
     double restitution = 0.0;
-    double locked_load = 0.0;        // N s: part of the load that a lock bears; friction counts it
-    double bounce_impulse = 0.0;     // N s, along the normal, of this tick
+    double locked_load = 0.0;    // N s: part of the load that a lock bears; it counts for friction
+    double bounce_impulse = 0.0; // N s, along the normal, of this tick
     ContactMemory* memory = nullptr; // where the impulses of this tick are kept
-    /// The velocity that turning adds to that of the contact by the end of the tick, m/s.
+    /// The velocity that rotation adds to that of the contact by the end of the tick, m/s.
     ContactVector centripetal_velocity{};
     bool turns = false;       // true if centripetal_velocity adds anything
     bool is_on_plane = false; // contact with a plane: its normal never changes
@@ -116,13 +117,13 @@ struct ContactBlock {
     {
         return impulse.normal[0] + impulse.normal[1] + impulse.normal[2] + impulse.normal[3];
     }
-    /// The largest impulse of friction, N s.
+    /// Returns the largest impulse of friction, N s.
     [[nodiscard]] double friction_limit() const { return friction * (normal_sum() + locked_load); }
 };
 
-/// For a face under even pressure, the mean distance from the middle of a square over the distance
-/// of its corners: (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)). So much of the points' mean distance
-/// is a contact's torsion arm.
+/// The ratio of a contact's torsion arm to the points' mean distance. For a face under even
+/// pressure it is the mean distance from the middle of a square over the distance of its corners:
+/// (sqrt(2) + log(1 + sqrt(2))) / (3 sqrt(2)).
 inline constexpr double even_pressure = 0.5410;
 
 /// Two directions in the plane of a contact, across its normal.
@@ -131,15 +132,15 @@ struct Tangents {
 };
 [[nodiscard]] Tangents tangents_of(const glm::dvec3& normal);
 
-/// Last tick's impulses of the points with these features, along such tangents.
+/// Returns last tick's impulses of the points with these features, along the given tangents.
 [[nodiscard]] ContactImpulse last_impulse(std::span<const std::uint32_t> features,
                                           const Tangents& tangents, const ContactMemory& memory);
 
-/// Sets the geometry, and starts from last tick's impulses.
+/// Sets the geometry, and starts the block from last tick's impulses.
 void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces& centres,
              const ContactMemory& memory);
-/// True if a block was in balance and the next tick has all that it starts from: the impulses are
-/// as they were, and so is the normal. Counts the tick.
+/// True if the block was in balance and its memory already holds the start of the next tick: the
+/// same impulses and the same normal. Counts the tick.
 [[nodiscard]] inline bool keeps_impulses(const ContactBlock& block, ContactMemory& memory)
 {
     if (!block.is_on_plane || block.has_matrix || memory.count != block.count) return false;
@@ -149,12 +150,12 @@ void prepare(ContactBlock& block, const Manifold& manifold, const ContactPlaces&
     ++memory.ticks;
     return true;
 }
-/// Keeps the impulses as the start of the next tick, except those of a hit, which will not come
-/// again. They therefore at most double from tick to tick, plus `weight` (N s), which is about the
-/// impulse that carries the two bodies.
+/// Stores the impulses as the start of the next tick, except those of an impact, which will not
+/// recur. So the stored impulses at most double from tick to tick, plus `weight` (N s), which is
+/// about the impulse that supports the two bodies.
 void store_impulses(const ContactBlock& block, double weight, ContactMemory& memory);
 
-/// Starts from no impulses.
+/// Sets the block's impulses to zero.
 void forget_impulses(ContactBlock& block);
 
 [[nodiscard]] ContactVector velocity_at(const ContactBlock& block, const BodyMotion& a,
@@ -162,10 +163,10 @@ void forget_impulses(ContactBlock& block);
 /// As velocity_at(), without friction's part.
 [[nodiscard]] ContactVector normal_velocity_at(const ContactBlock& block, const BodyMotion& a,
                                                const BodyMotion& b);
-/// Sets the centripetal velocity: while a body turns, its touching points go around its centre,
-/// which adds to their velocity within a tick. Without it, a box that tips over an edge would gain
-/// energy. Second order; left out for bodies that turn farther than a tenth of a radian. Lowers the
-/// least speeds so that a contact that stands still meets them.
+/// Sets the centripetal velocity. While a body turns, its touching points move around its centre,
+/// which adds to their velocity within a tick. Without this term, a box that tips over an edge
+/// would gain energy. It is of second order, and is left out for bodies that turn farther than a
+/// tenth of a radian. Lowers the least speeds so that a contact that stands still meets them.
 void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                               const glm::dvec3& spin_b, double tick);
 
@@ -173,8 +174,8 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
                                            const ContactImpulse& impulse);
 
 [[nodiscard]] Wrench wrench(const ContactBlock& block, const ContactVector& impulse);
-/// The work of an impulse on a body while the other side moves as `motion` says, J. `arm` starts at
-/// that other side's centre.
+/// Returns the work of an impulse on a body while the other side of the contact moves as `motion`,
+/// J. `arm` starts at the other side's centre.
 [[nodiscard]] double work_of(const Wrench& push, const glm::dvec3& arm, const BodyMotion& motion);
 /// Returns the velocity of a point of a body. `arm` is its place from the body's centre.
 [[nodiscard]] inline glm::dvec3 velocity_at(const BodyMotion& motion, const glm::dvec3& arm)
@@ -187,13 +188,13 @@ void apply(const Wrench& wrench, const glm::dvec3& arm, const BodyResponse& resp
 
 void build_matrix(ContactBlock& block, const BodyResponse& a, const BodyResponse& b);
 
-/// The change that an impulse of the contact makes to the energy of its two bodies. `velocity` is
-/// that of the contact without the impulse. Needs the matrix.
+/// Returns the change that an impulse of the contact makes to the energy of its two bodies.
+/// `velocity` is that of the contact without the impulse. Needs the matrix.
 [[nodiscard]] EnergyOfShare energy_of(const ContactBlock& block, const ContactVector& impulse,
                                       const ContactVector& velocity);
 
-/// Multiplies by a block's matrix. The matrix is symmetric, so that its rows serve as columns and
-/// two numbers are computed at once.
+/// Returns the product of a block's matrix and an impulse. The matrix is symmetric, so its rows
+/// serve as columns and two numbers are computed at once.
 [[nodiscard]] inline ContactVector times(const Square<6>& matrix, const ContactVector& impulse)
 {
     ContactVector velocity;

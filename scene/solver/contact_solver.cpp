@@ -11,10 +11,11 @@ namespace hapnet::scene {
 
 namespace {
 
-/// The impulses of a block as numbers of one kind, N s.
+/// The number of impulses of a block, all in N s.
 constexpr std::size_t numbers_per_block = 7;
 
-// Islands larger than this are swept without mixing: what they may cost is used up before it helps.
+// Islands larger than this are swept without mixing, as their budget is used up before mixing
+// helps.
 constexpr std::size_t mixed_max = 1024;
 
 // The cost of a HeldIsland, in sweeps.
@@ -82,7 +83,8 @@ ContactSolver::ContactSolver(std::size_t bodies, std::size_t blocks)
       held_{bodies, blocks}
 {}
 
-/// The first look, and then for each island either its share or the few sweeps of any.
+/// The bound is the first sweep, and then for each island either its share or the minimum number of
+/// sweeps.
 std::uint64_t ContactSolver::visits_bound(const SolverLimits& limits) const
 {
     const std::uint64_t any = limits.sweeps_min * blocks_max_;
@@ -183,7 +185,7 @@ SolverOutcome ContactSolver::run(const Task& task)
     return outcome;
 }
 
-/// Islands that move share the visits evenly.
+/// Solves the islands that still move. They share the visits evenly.
 SolverOutcome ContactSolver::run_islands(const Task& task)
 {
     SolverOutcome outcome{.sweeps = 1};
@@ -246,8 +248,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         read_impulses(island, after_.all());
         if (first2 < 0.0) first2 = size2(after_.all());
         const double step2 = distance2(before_.all(), after_.all());
-        // A mixture that makes the result worse, because something opens or slips there, is taken
-        // back.
+        // A mixture that makes the result worse, because a contact opens or slips, is undone.
         constexpr double astray = 4.0;
         if (has_jumped && !(step2 <= astray * shortest2)) {
             undo_mixture(task, island);
@@ -258,8 +259,8 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
         }
         shortest2 = std::min(shortest2, step2);
         if (outcome.sweeps + 2 > task.limits.sweeps_max) break;
-        // The next pair of sweeps checks the result, as it does a mixture. If it is worse, one more
-        // pair of sweeps follows.
+        // The next pair of sweeps checks the result, as it checks a mixture. If it is worse, one
+        // more pair of sweeps follows.
         if (!has_tried_to_hold && outcome.sweeps + held_sweeps + 4 <= task.limits.sweeps_max &&
             may_hold(task, island)) {
             has_tried_to_hold = true;
@@ -271,7 +272,7 @@ SolverOutcome ContactSolver::run_island(const Task& task, Island island)
             }
         }
         has_jumped = anderson_.mix(before_.all(), after_.all(), before_.all());
-        // Where bodies are wedged, impulses that do nothing could grow without end.
+        // Where bodies are wedged, impulses without effect could grow without end.
         constexpr double too_far = 1e4;
         if (!(size2(before_.all()) <= too_far * too_far * first2)) {
             std::copy(after_.all().begin(), after_.all().end(), before_.all().begin());
@@ -415,7 +416,7 @@ void ContactSolver::count_contacts()
     }
 }
 
-/// True if no other block has to do with its bodies.
+/// True if no other block shares a body with this block.
 bool ContactSolver::is_alone(const ContactBlock& block) const
 {
     return (!responds(block.a) || contacts_[block.a] == 1) &&
@@ -442,7 +443,7 @@ void ContactSolver::find_islands()
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
         order_[starts_[root_of_block(blocks_[i])]++] = i;
     }
-    // Now every entry has become the end of its island.
+    // Now every entry is the end of its island.
     starts_.resize(bodies);
 }
 

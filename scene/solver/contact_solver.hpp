@@ -16,36 +16,38 @@ namespace hapnet::scene {
 
 /// The limits at which the solver stops.
 struct SolverLimits {
-    double tolerance = 0.0;       // m/s: a contact that misses by less is left alone
+    double tolerance = 0.0;       // m/s: a contact whose error is less is left alone
     double converged = 0.0;       // m/s: finished when no contact changes its speed by more
-    std::uint32_t sweeps_max = 1; // most sweeps over an island
-    std::uint32_t sweeps_min = 1; // every island may make them: the first, then to and fro
-    /// Most visits over all islands. An island gets its least sweeps even beyond them.
+    std::uint32_t sweeps_max = 1; // greatest number of sweeps over an island
+    std::uint32_t sweeps_min = 1; // sweeps that every island may use: the first, then to and fro
+    /// The greatest number of visits over all islands. An island gets its least sweeps even beyond
+    /// them.
     std::uint32_t visits_max = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// The effort of a solve, and the change of its last sweep.
 struct SolverOutcome {
-    std::uint32_t sweeps = 0; // sweeps of the island that needed most
+    std::uint32_t sweeps = 0; // sweeps of the island that needed the most
     double change = 0.0;      // m/s: largest change of a contact's speed in the last sweep
     bool in_balance = true;   // in balance from the start: no impulse had to change
     std::uint64_t visits = 0; // visits to contacts
 };
 
-/// Solves all contacts of a tick for the velocities at its end, block after block, each as a whole
-/// (projected Gauss-Seidel). A contact that is in balance already costs a look, and what is at
-/// rest or nearly so is done with one sweep. Bodies that touch each other and are not are an
-/// island: swept again and again, to and fro, with Anderson mixing, which is what holds a heavy
-/// body on a light one, and a stack.
+/// Solves all contacts of a tick for the velocities at its end. It solves block after block, each
+/// as a whole (projected Gauss-Seidel). A contact that is already in balance costs only a check,
+/// and bodies that are at rest or nearly so are done with one sweep. Other bodies that touch each
+/// other form islands. An island is swept again and again, to and fro, with Anderson mixing. The
+/// mixing makes heavy bodies on light ones, and stacks, converge.
 class ContactSolver {
 public:
     ContactSolver(std::size_t bodies, std::size_t blocks);
 
-    /// Begins a tick: no contacts, bodies 1 .. `bodies`, and after them `kinematic` ones, which
-    /// move by themselves: their responses have to be zero.
+    /// Begins a tick without contacts, with the bodies 1 .. `bodies` and after them `kinematic`
+    /// ones. Kinematic bodies move by themselves: their responses have to be zero.
     void begin(std::size_t bodies, std::size_t kinematic = 0);
 
-    /// True if impulses move the body. A body that does not respond joins no bodies to an island.
+    /// True if impulses move the body. A body that does not respond does not join others to an
+    /// island.
     [[nodiscard]] bool responds(SolverIndex body) const { return body - 1 < responding_; }
     /// Returns a body of the block that responds to impulses.
     [[nodiscard]] SolverIndex responding_of(const ContactBlock& block) const
@@ -55,12 +57,12 @@ public:
     [[nodiscard]] bool is_kinematic(SolverIndex body) const { return body > responding_; }
 
     [[nodiscard]] BodyResponse& response(SolverIndex body) { return responses_[body]; }
-    /// The body's motion at the end of the tick.
+    /// Returns the body's motion at the end of the tick.
     [[nodiscard]] BodyMotion& end_motion(SolverIndex body) { return end_motions_[body]; }
-    /// The mean over the tick: what moves the bodies.
+    /// Returns the body's mean motion over the tick, which moves the body.
     [[nodiscard]] BodyMotion& mean_motion(SolverIndex body) { return mean_motions_[body]; }
 
-    /// The most visits that a solve of all contacts can take.
+    /// Returns the greatest number of visits that a solve of all contacts can take.
     [[nodiscard]] std::uint64_t visits_bound(const SolverLimits& limits) const;
 
     [[nodiscard]] std::size_t bodies_max() const { return bodies_max_; }
@@ -77,8 +79,9 @@ public:
     /// As solve_velocities(), for the mean velocities: without friction, and with impulses that
     /// begin at zero.
     SolverOutcome correct_positions(const SolverLimits& limits);
-    /// True if a contact with such mean velocities overlaps more than it may at the end. The limits
-    /// of corrections are rates: they hold for a contact of size 1 m, and for others by their size.
+    /// True if a contact with the given mean velocities would overlap more at the end than is
+    /// allowed. The limits of corrections are rates: they are given for a contact of size 1 m and
+    /// scale with its size.
     [[nodiscard]] static bool overlaps(const ContactBlock& block, const ContactVector& velocity,
                                        const SolverLimits& limits)
     {
@@ -91,7 +94,7 @@ public:
     }
     /// Corrects the positions once more, after the responses of bodies have changed.
     SolverOutcome correct_positions_again(const SolverLimits& limits);
-    /// Solves one block for given velocities, which stay as they are; returns the impulse.
+    /// Solves one block for given velocities, which stay as they are. Returns the impulse.
     ContactVector solve_alone(ContactBlock& block, const ContactVector& velocity, double tolerance);
 
 private:
@@ -103,8 +106,8 @@ private:
         SolverLimits limits;
     };
 
-    /// The exactness of a slipping block's solution: full, or by one iteration, which the next
-    /// sweep continues.
+    /// The accuracy of a slipping block's solution: full, or by one iteration, which the next sweep
+    /// continues.
     enum class Effort : std::uint8_t { full, one_iteration };
 
     /// The blocks of an island.

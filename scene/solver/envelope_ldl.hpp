@@ -12,9 +12,9 @@
 namespace hapnet::scene {
 
 /// The factors L D L' of a symmetric matrix without negative eigenvalues whose rows are zero before
-/// some column: their envelope, which the factors do not leave (George, Liu, Computer Solution of
-/// Large Sparse Positive Definite Systems, 1981). A row that depends on those before it, as in a
-/// closed loop, is left out: its unknown is zero.
+/// some column. The factors stay within this envelope (George, Liu, Computer Solution of Large
+/// Sparse Positive Definite Systems, 1981). A row that depends on earlier rows, as in a closed
+/// loop, is left out: its unknown is zero.
 class EnvelopeLdl {
 public:
     EnvelopeLdl() = default;
@@ -50,11 +50,11 @@ public:
 
     [[nodiscard]] std::size_t rows() const { return first_.size(); }
     [[nodiscard]] std::uint32_t first(std::size_t row) const { return first_[row]; }
-    /// The row from its first column to its diagonal. Set it before factor().
+    /// Returns the row from its first column to its diagonal. Set it before factor().
     [[nodiscard]] double* row(std::size_t i) { return entries_.all().data() + begins_[i]; }
     [[nodiscard]] bool is_left_out(std::size_t row) const { return inverse_[row] == 0.0; }
 
-    /// Factors a row. Call it for one row after the other.
+    /// Factors one row. Call it for the rows in their order.
     void factor(std::size_t i, double diagonal);
     void leave_out(std::size_t i)
     {
@@ -62,7 +62,7 @@ public:
         std::fill(lower, lower + (i - first_[i]), 0.0);
         inverse_[i] = 0.0;
     }
-    /// Replaces the right side by the unknowns.
+    /// Replaces the right-hand side by the unknowns.
     void solve(std::span<double> x) const;
 
 private:

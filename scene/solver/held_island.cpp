@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t rows_per_block = 6;
 
-// The limits of one answer: a number of blocks, and for each a number of steps of its factors,
-// which are the squares of the lengths of its rows. A stack takes 450, a body under four others
-// 1800. More would not be worth six sweeps.
+// The limits of one solution: a number of blocks, and for each block a number of steps of its
+// factors, which are the squares of the lengths of its rows. A stack takes 450, a body under four
+// others 1800. More would cost more than six sweeps.
 constexpr std::size_t blocks_held_max = 32;
 constexpr std::size_t work_per_block_max = 2000;
 
-/// Returns the most entries that rows can have while the squares of their lengths are within the
-/// work (Cauchy, Schwarz), or the number of all entries if that is less.
+/// Returns the greatest number of entries that rows can have while the squares of their lengths are
+/// within the limit of work (Cauchy, Schwarz), or the number of all entries if that is less.
 std::size_t entries_max(std::size_t blocks)
 {
     const std::size_t rows = rows_per_block * blocks;
@@ -51,7 +51,7 @@ bool sticks(const ContactBlock& block, const ContactImpulse& impulse, double sha
            limit * limit;
 }
 
-/// True if no impulse moves a body: a kinematic one.
+/// True if impulses do not move the body, as with a kinematic one.
 bool is_unmoved(const BodyResponse& response)
 {
     return response.inverse_mass == glm::dvec3{0.0} && response.inverse_inertia == glm::dmat3{0.0};
@@ -156,7 +156,7 @@ void HeldIsland::factor(const Task& task)
     }
 }
 
-/// Finds by how much the velocities are off.
+/// Finds the errors of the velocities.
 void HeldIsland::miss(const Task& task)
 {
     for (const Holding& its : holding_.all()) {

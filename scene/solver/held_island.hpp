@@ -12,8 +12,8 @@
 
 namespace hapnet::scene {
 
-/// The impulses with which an island stands, all at once: if the points that push go on to push and
-/// no contact slips, they are the answer of linear equations. Sweeps need longest for a tall stack
+/// The impulses that hold an island at rest, all at once. If the points that push continue to push
+/// and no contact slips, the impulses solve linear equations. Sweeps need longest for a tall stack
 /// that tilts as a whole: its modes converge with the fourth power of its height.
 class HeldIsland {
 public:
@@ -27,14 +27,14 @@ public:
         std::span<const BodyResponse> responses;
         std::span<const BodyMotion> motions;
     };
-    /// Prepares the equations. Returns false if the island has none: where a contact slips, as all
-    /// do without friction, where one pushes with less than three points or with points on a line,
-    /// and where the island is too large or too much of it meets in one body.
+    /// Prepares the equations. Returns false if they do not apply: a contact slips, as all do
+    /// without friction; a contact pushes with less than three points or with points on a line; or
+    /// the island is too large or too many of its contacts meet in one body.
     [[nodiscard]] bool begin(const Task& task);
-    /// Solves the equations after begin(). Returns true if there is an answer in which nothing
-    /// pulls and friction is within its limit.
+    /// Solves the equations after begin(). Returns true if in the solution nothing pulls and
+    /// friction is within its limit.
     [[nodiscard]] bool solve(const Task& task);
-    /// The impulses of the island's blocks, in its order.
+    /// Returns the impulses of the island's blocks, in the island's order.
     [[nodiscard]] std::span<const ContactImpulse> impulses() const { return impulses_.all(); }
 
 private:

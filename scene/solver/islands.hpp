@@ -9,15 +9,15 @@
 
 namespace hapnet::scene {
 
-/// Groups bodies that belong together, by a union-find. An island is known by the lowest of its
-/// numbers, whatever the order in which its bodies were joined.
+/// Groups bodies that belong together, by a union-find. An island is identified by the lowest
+/// number of its bodies, in whatever order they were joined.
 class Islands {
 public:
     using Body = std::uint32_t;
 
     explicit Islands(std::size_t bodies) : parents_(bodies) {}
 
-    /// Makes the body an island of its own. Every body needs it before it is joined.
+    /// Makes the body an island of its own. Call it for every body before it is joined.
     void reset(Body body) { parents_[body] = body; }
     void join(Body a, Body b)
     {
@@ -25,7 +25,7 @@ public:
         const Body other = root_of(b);
         parents_[std::max(one, other)] = std::min(one, other);
     }
-    /// The lowest number of the body's island.
+    /// Returns the lowest number of the body's island.
     [[nodiscard]] Body root_of(Body body)
     {
         while (parents_[body] != body) {

@@ -11,10 +11,10 @@ namespace hapnet::scene {
 template <std::size_t rows>
 using Square = std::array<std::array<double, rows>, rows>;
 
-/// One over a pivot of L D L'; 0 where the row depends on those before it. A pivot this small
-/// beside its diagonal is rounding: that of the rows before it is multiplied by what their own
-/// pivots lost, so a dependent row was seen to leave 1e-11. Kept pivots have seven digits at least,
-/// and their inverses are finite.
+/// Returns one over a pivot of L D L', or 0 where the row depends on earlier rows. A pivot that is
+/// this small compared with its diagonal is rounding. The rounding of earlier rows is multiplied by
+/// what their own pivots lost: a dependent row was found to leave 1e-11. Kept pivots have at least
+/// seven digits, and their inverses are finite.
 [[nodiscard]] inline double inverse_of_pivot(double pivot, double diagonal)
 {
     constexpr double dependent = 1e-9;
@@ -23,7 +23,7 @@ using Square = std::array<std::array<double, rows>, rows>;
 }
 
 /// The factors L D L' of a symmetric matrix without negative eigenvalues. A row that depends on
-/// those before it (an axis that is locked, a point too many) is left out: its unknown is zero.
+/// earlier rows (a locked axis, a redundant point) is left out: its unknown is zero.
 template <std::size_t rows>
 class Ldl {
 public:
@@ -45,8 +45,8 @@ public:
         }
     }
 
-    /// Solves with the first rows and columns alone when `x` has fewer: their factors are the first
-    /// rows of all.
+    /// Solves with the first rows and columns alone when `x` is shorter: their factors are the
+    /// first rows of all factors.
     template <std::size_t few>
     [[nodiscard]] std::array<double, few> solve(std::array<double, few> x) const
     {

@@ -63,7 +63,7 @@ bool PlaneContact::prepare_again(ContactBlock& block, const ContactMemory& memor
 inline void PlaneContact::set_heights(ContactBlock& block) const
 {
     block.separation = separation_;
-    // Midway between the two surfaces.
+    // The anchor is midway between the two surfaces.
     block.arm_b = pressure_.across + (0.5 * (pressure_.rise - height_)) * corners_.normal;
     block.arm_a = block.arm_b; // for the plane, which does not move
 }
@@ -88,7 +88,7 @@ void PlaneContact::renew(const BoxOverPlane& box)
     pressure_.touching = 0;
 }
 
-/// Compares what the pressure follows from.
+/// True if all inputs of the pressure are those for which it was found.
 bool PlaneContact::has_pressure_of(const ContactMemory& memory) const
 {
     const ContactMemory& known = pressure_.memory;

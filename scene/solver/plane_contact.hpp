@@ -16,7 +16,7 @@ struct BoxOverPlane {
     std::uint32_t body = 0, plane = 0; // indices; sizes and normal never change
     const glm::dvec3& normal;
     double height = 0.0; // height of the box's centre, m
-    double margin = 0.0; // m: corners up to this height are looked at
+    double margin = 0.0; // m: corners up to this height count
     const glm::dmat3& axes;
     const glm::dquat& orientation; // the orientation that has these `axes`
     const glm::dvec3& half;
@@ -24,9 +24,9 @@ struct BoxOverPlane {
 };
 
 /// A box's contact with a plane, for the solver. It keeps two results of the last tick. The corners
-/// stay valid as long as the box does not turn. The points relative to the pressure's centre stay
-/// valid as long as last tick's impulses are those of the tick before. Both results follow from the
-/// input alone: computing them again would give the same bits.
+/// stay valid as long as the box does not turn. The points relative to the centre of pressure stay
+/// valid as long as last tick's impulses equal those of the tick before. Both results follow from
+/// the input alone: computing them again would give the same bits.
 class PlaneContact {
 public:
     /// Finds the corners that are below the plane or at most the margin above it. Returns their
@@ -44,7 +44,8 @@ private:
     template <typename T>
     using Each = std::array<T, manifold_points_max>;
 
-    /// The corners' geometry that follows from the box's orientation. Heights are over its centre.
+    /// The geometry of the corners that follows from the box's orientation. Heights are over its
+    /// centre.
     struct Corners {
         std::uint32_t body = 0, plane = 0;
         glm::dvec3 normal{0.0};

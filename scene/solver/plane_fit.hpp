@@ -38,8 +38,8 @@ inline constexpr auto point_sets = [] {
 
 constexpr const PointSet& PointSet::of(std::uint32_t bits) { return point_sets[bits]; }
 
-/// A plane over the tangents through numbers given at three or four points: the numbers' best fit,
-/// and for impulses of a given sum and moment those of the least squares.
+/// A plane over the tangents through numbers at three or four points. It is the best fit of the
+/// numbers; for impulses of a given sum and moment, it gives the impulses with the least squares.
 class PlaneFit {
 public:
     PlaneFit() = default;
@@ -80,7 +80,7 @@ public:
 
     [[nodiscard]] bool is_along_1() const { return uu_ >= vv_; }
 
-    /// The modal velocity whose normal speeds at the points are `least`.
+    /// Returns the modal velocity whose normal speeds at the points are `least`, or fit them best.
     [[nodiscard]] std::array<double, 3> modal_least(const PointNumbers& least) const
     {
         double mean = 0.0;
@@ -107,8 +107,8 @@ public:
     }
 
 private:
-    /// Calls visit(which of the set, which of all) for the three or four points, in loops whose
-    /// lengths are known.
+    /// Calls visit(index in the set, index of the point) for the three or four points, in loops of
+    /// known lengths.
     template <typename Visit>
     void for_points(Visit visit) const
     {

@@ -10,8 +10,8 @@
 
 namespace hapnet::scene {
 
-// The keys of a scene's text, by which it is read and printed: docs/formats/scene.md. They stand
-// here and not beside their structs, so that a stepper does not read formats of TOML.
+// The keys of a scene's text, for reading and printing: docs/formats/scene.md. They are here and
+// not beside their structs, so that steppers do not depend on the formats of TOML.
 
 constexpr auto fields_of(base::Tag<Material>)
 {
@@ -189,13 +189,13 @@ struct Density {
 };
 constexpr auto fields_of(base::Tag<Density>)
 {
-    // The densities of the smallest and of the largest mass.
+    // The density range spans the smallest and the largest mass.
     return base::fields("density", base::field("density", &Density::kg_per_m3,
                                                base::Quantity{base::density_kind, 1e-9, 1e18},
                                                "instead of `mass`"));
 }
 
-/// The number of equal bodies, and their distances.
+/// The number of equal bodies along each axis, and their spacing.
 struct Array {
     Counts::Value count{1, 1, 1};
     glm::dvec3 spacing{0.0};

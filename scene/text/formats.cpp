@@ -16,11 +16,11 @@ namespace {
 using base::Node;
 using base::Reading;
 
-// The length of what rounding has been done to once; what is nearer to 1 is left as it is, so that
-// what has been printed reads back as the same bits.
+// The error of the length of a vector that was rounded once. A length that is nearer to 1 is left
+// as it is, so that printed values read back as the same bits.
 constexpr double rounding = 1e-14;
 
-/// A list of three; nullptr: complained of.
+/// Reads a list of three. Returns nullptr after a complaint.
 const Node::List* three(const Node& node, std::string_view of_what, Reading& reading)
 {
     const auto* list = std::get_if<Node::List>(&node.value);
@@ -35,7 +35,7 @@ const Node::List* three(const Node& node, std::string_view of_what, Reading& rea
     return nullptr;
 }
 
-/// Scaled to the length 1; false when it is too near to zero to have a direction.
+/// Scales a value to the length 1. Returns false when it is too near to zero to have a direction.
 template <typename T>
 bool make_unit(T& value, double square)
 {
@@ -45,7 +45,7 @@ bool make_unit(T& value, double square)
     return true;
 }
 
-/// A number without a unit that is safe to square.
+/// Reads a number without a unit that is safe to square.
 double plain(const Node& node, Reading& reading)
 {
     constexpr base::Number safe{-1e6, 1e6};

@@ -14,7 +14,7 @@ namespace hapnet::scene::text {
 
 // Formats of a scene's values that have a notation of their own (proto/base/formats.hpp).
 
-/// Three of a quantity: ["0m", "22.5mm", "0m"].
+/// Three values of one quantity: ["0m", "22.5mm", "0m"].
 struct PerAxis {
     base::Quantity each;
 
@@ -22,7 +22,7 @@ struct PerAxis {
     [[nodiscard]] std::string print(const glm::dvec3& value) const;
     [[nodiscard]] std::string describe() const;
 
-    /// Reads a place or a velocity, which keep their numbers in `value`.
+    /// Reads a place or a velocity, which store their numbers in `value`.
     template <typename V>
     requires requires(V v) { v.value; }
     void read(const base::Node& node, V& target, base::Reading& reading) const
@@ -34,14 +34,15 @@ struct PerAxis {
     [[nodiscard]] std::string print(const V& value) const { return print(value.value); }
 };
 
-/// The edges of a box, of which half is kept: one length for a cube, or one for each axis.
+/// The edges of a box, given as one length for a cube or one for each axis. Half of each edge is
+/// stored.
 struct Edges {
     void read(const base::Node& node, glm::dvec3& half, base::Reading& reading) const;
     [[nodiscard]] std::string print(const glm::dvec3& half) const;
     [[nodiscard]] std::string describe() const;
 };
 
-/// Three whole numbers, each 1 at least: [10, 1, 10].
+/// Three whole numbers of at least 1: [10, 1, 10].
 struct Counts {
     using Value = std::array<std::uint32_t, 3>;
 
@@ -50,7 +51,7 @@ struct Counts {
     [[nodiscard]] std::string describe() const;
 };
 
-/// Three numbers, not all of them 0; what is kept has the length 1.
+/// A direction: three numbers, not all of them 0. It is stored with length 1.
 struct Direction {
     void read(const base::Node& node, glm::dvec3& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const glm::dvec3& value) const;
@@ -60,8 +61,8 @@ struct Direction {
     }
 };
 
-/// { axis = [0, 1, 0], angle = "30deg" }, or the parts of a quaternion { w = 1, x = 0, y = 0, z = 0
-/// }, as which it is printed; what is kept has the length 1.
+/// An orientation: { axis = [0, 1, 0], angle = "30deg" }, or the parts of a quaternion { w = 1, x =
+/// 0, y = 0, z = 0 }. It is stored with length 1 and printed as a quaternion.
 struct Orientation {
     void read(const base::Node& node, glm::dquat& target, base::Reading& reading) const;
     [[nodiscard]] std::string print(const glm::dquat& value) const;
@@ -78,7 +79,7 @@ struct Axes {
     [[nodiscard]] std::string describe() const { return R"(a list of axes such as `["x"]`)"; }
 };
 
-/// `fixed`, of which the opposite is kept.
+/// The key `fixed`. Its opposite, `movable`, is stored.
 struct Fixed {
     void read(const base::Node& node, bool& movable, base::Reading& reading) const;
     [[nodiscard]] std::string print(bool movable) const { return movable ? "false" : "true"; }

@@ -62,7 +62,7 @@ void with_each(const Node* node, std::string_view key, Reading& reading, Use use
     }
 }
 
-/// The keys that a body and an array of bodies have in common.
+/// Reads the keys that a body and an array of bodies have in common.
 BodyDescription read_body_keys(TableReader& table)
 {
     BodyDescription body;
@@ -75,7 +75,8 @@ BodyDescription read_body_keys(TableReader& table)
     return body;
 }
 
-/// Call it once all other keys are known: a misspelt key is the better complaint.
+/// Requires a mass. Call it after all other keys are read, since a misspelt key is the better
+/// complaint.
 void require_mass(TableReader& table, bool is_movable)
 {
     if (!is_movable || table.find("mass") != nullptr || table.find("density") != nullptr) return;
@@ -83,7 +84,7 @@ void require_mass(TableReader& table, bool is_movable)
                                             "not fixed has one, such as mass = \"100g\"");
 }
 
-/// A scene that grows body by body, and where each stands in the text.
+/// A scene that grows body by body, and the place of each body in the text.
 struct Growing {
     Description scene;
     std::vector<Place> body_places;
@@ -131,7 +132,7 @@ void read_planes(TableReader& table, Growing& growing)
     });
 }
 
-/// Bodies and arrays of bodies in the order of the text, which is that of their ids.
+/// Reads bodies and arrays of bodies in the order of the text, which is the order of their ids.
 void read_bodies(TableReader& table, Growing& growing)
 {
     Reading& reading = table.reading();
@@ -159,7 +160,7 @@ void read_bodies(TableReader& table, Growing& growing)
     }
 }
 
-/// A scene of an earlier version may have joints.
+/// Refuses joints, which a scene of an earlier version may have.
 void refuse_joints(TableReader& table)
 {
     for (const std::string_view key : {"hinge", "slider", "ball", "spring"}) {
@@ -174,7 +175,7 @@ void refuse_joints(TableReader& table)
     }
 }
 
-/// Returns the place of the first plane or body that check() refuses even on its own, or else
+/// Returns the place of the first plane or body that check() refuses even alone, or else
 /// `otherwise`.
 Place culprit(const Growing& growing, Place otherwise)
 {
@@ -199,7 +200,8 @@ bool has_key(std::string_view key)
                        [key](const base::FieldRow& row) { return row.key == key; });
 }
 
-/// Says where a key belongs, or by which other key a scene says the same; "" for a key of no table.
+/// Returns advice on where a key belongs, or by which other key a scene states the same; "" for a
+/// key of no table.
 std::string advice_on_key(std::string_view key)
 {
     if (key == "radius" || key == "diameter") {
@@ -251,7 +253,7 @@ base::Result<Description> parse_scene(std::string_view text, const std::string& 
 
 namespace {
 
-/// Says what became of a scene that earlier versions had; "" for others.
+/// Returns advice on a scene that earlier versions had; "" for other names.
 std::string removed_scene(std::string_view name)
 {
     constexpr std::array<std::string_view, 3> with_joints{"door", "drawer", "button"};

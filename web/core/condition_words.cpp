@@ -74,8 +74,8 @@ bool was_due(const Json& before, const Json& after)
     return from && left && to && *to >= *from + *left - tolerance_s;
 }
 
-/// Returns the settings that programs have made and that still hold, without the time they have
-/// left.
+/// Returns the settings that programs have made and that are still in force, without the time that
+/// they have left.
 std::vector<Json> live_settings(const Json& shown)
 {
     std::vector<Json> all;

@@ -10,7 +10,7 @@
 
 namespace hapnet::web {
 
-/// The time of an event, on the server's own timeline and by the calendar.
+/// The time of an event, on the server's own timeline and in calendar time.
 struct Moment {
     double at_s = 0.0;
     std::int64_t unix_ms = 0;
@@ -23,15 +23,15 @@ struct Event {
     std::string text;
     std::int64_t generation = 0; // generation of the conditions; 0: none
     std::vector<std::string> files{};
-    nlohmann::ordered_json set = nullptr; // the settings that were asked for
+    nlohmann::ordered_json set = nullptr; // the requested settings
 };
 
-/// The last events, numbered from 1.
+/// The newest events, numbered from 1.
 class Events {
 public:
     static constexpr std::size_t kept_max = 100;
 
-    /// The event as the page gets it: {"type":"event","id":..}.
+    /// Adds an event. Returns it in the form for the page: {"type":"event","id":..}.
     const nlohmann::ordered_json& add(const Event& event);
 
     [[nodiscard]] const std::deque<nlohmann::ordered_json>& kept() const { return kept_; }

@@ -40,7 +40,7 @@ std::string letter_of(std::size_t place)
     return {static_cast<char>('a' + static_cast<int>(place % 26))};
 }
 
-/// Its frame as it came, or again.
+/// Appends a frame, or `repeated` if it is not new.
 void put_frame(std::string& text, const std::string& frame, bool is_new)
 {
     if (is_new) {
@@ -51,7 +51,7 @@ void put_frame(std::string& text, const std::string& frame, bool is_new)
     text += ",\"repeated\":true}";
 }
 
-/// The name before a way: "1-2.up", or "up" of the only path.
+/// Returns the name prefix of a direction: "1-2.up", or "up" for the only path.
 std::string way_name(const std::string& path, const char* way)
 {
     return path.empty() ? way : path + "." + way;
@@ -72,7 +72,7 @@ void Feed::take_peer(std::size_t place, PeerFrame frame)
 {
     base::ensure(place < peers_.size());
     tracks_[place].add(frame.cube);
-    // Counts of frames that came since the live frame before are of both.
+    // Counts of frames that arrived since the last live frame are added up.
     auto& newest = newest_[place];
     if (!newest.frame || newest.frame->cube.at != frame.cube.at) ++moves_;
     if (newest.frame && newest.is_new) {

@@ -14,12 +14,13 @@
 
 namespace hapnet::web {
 
-/// Figures of a live frame by the names that a trap's condition uses: "apart_mm", "a.late_us.max".
-/// Unknown figures are left out.
+/// The figures of a live frame, under the names that a trap's condition uses: "apart_mm",
+/// "a.late_us.max". Unknown figures are left out.
 using Figures = std::map<std::string, double, std::less<>>;
 
-/// Joins the frames of all peers and of the emulator to live frames: docs/formats/live.md. Does no
-/// I/O and reads no clock: feed it with take_...(), drain it with next().
+/// Joins the frames of all peers and of the emulator to live frames: docs/formats/live.md. It does
+/// no I/O and reads no clock. Pass frames to the take_...() functions and call next() for the
+/// result.
 class Feed {
 public:
     struct Source {
@@ -29,50 +30,53 @@ public:
         friend bool operator==(const Source&, const Source&) = default;
     };
 
-    /// Sets the peers, in the order of their ids. If the list has changed, frames and history start
-    /// again.
+    /// Sets the peers, in the order of their ids. If the list has changed, frames and history are
+    /// cleared.
     void set_peers(std::vector<Source> peers);
     [[nodiscard]] const std::vector<Source>& peers() const { return peers_; }
     /// True if two peers use one clock: they report the same boot id, and the offset that the first
     /// peer has measured does not contradict it.
     [[nodiscard]] bool share_clock(std::size_t a, std::size_t b) const;
 
-    /// `place` is that in peers().
+    /// Takes a frame of a peer. `place` is the peer's index in peers().
     void take_peer(std::size_t place, PeerFrame frame);
     void take_emulator(EmulatorFrame frame);
-    /// The frames of a peer have ended: live frames have null in their place.
+    /// Ends the frames of a peer. Live frames then have null in its place.
     void lose_peer(std::size_t place);
     void lose_emulator() { emulator_ = {}; }
     /// Empties the charts, for example when virtual time goes back.
     void forget();
 
-    /// Returns the next live frame without its beginning, which each page has its own:
+    /// Returns the next live frame without its beginning, which differs from page to page:
     /// `,"at_s":...}`. nullopt: nothing is attached. Adds a row to the history.
     [[nodiscard]] std::optional<std::string> next(double at_s, base::TimePoint now);
 
-    /// The newest live frame once more, for a page that comes later: as `repeated`, without a row.
+    /// Returns the newest live frame again, marked as `repeated`, for a page that connects later.
+    /// Adds no row.
     [[nodiscard]] std::optional<std::string> newest(double at_s, base::TimePoint now) const;
 
-    /// The figures of the newest live frame.
+    /// Returns the figures of the newest live frame.
     [[nodiscard]] const Figures& figures() const { return figures_; }
     [[nodiscard]] const History& history() const { return history_; }
     [[nodiscard]] std::optional<std::uint64_t> generation() const;
-    /// Since the emulator's start, by its newest frame: the time, where time is virtual.
+    /// Returns the time since the emulator's start, by its newest frame. In virtual time this is
+    /// the time of the session.
     [[nodiscard]] std::optional<double> elapsed_s() const;
-    /// Grows with each frame that is of another time than the one before: virtual time may stand
-    /// still.
+    /// Returns a counter of the frames whose time differs from that of the frame before. Virtual
+    /// time may stand still.
     [[nodiscard]] std::uint64_t moves() const { return moves_; }
-    /// The names of the emulator's paths, also after it has detached.
+    /// Returns the names of the emulator's paths. They remain known after the emulator has
+    /// detached.
     [[nodiscard]] const std::vector<std::string>& paths() const { return known_paths_; }
 
-    /// All names that figures() may have with these peers and paths.
+    /// Returns all names that figures() may have with these peers and paths.
     [[nodiscard]] std::vector<std::string> names() const;
 
 private:
     template <typename Frame>
     struct Newest {
         std::optional<Frame> frame;
-        bool is_new = false; // has come since the previous live frame
+        bool is_new = false; // arrived since the previous live frame
     };
     struct Pair {
         std::size_t a = 0;

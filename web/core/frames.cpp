@@ -21,7 +21,7 @@ constexpr std::size_t line_bytes_max = std::size_t{64} << 10;
 constexpr double number_max = 1e12;
 constexpr std::size_t entries_max = 64;
 
-/// Reads members; the first trouble is remembered.
+/// Reads members and remembers the first error.
 class FrameReader {
 public:
     explicit FrameReader(const Json& json) : json_{json} {}
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool is_good() const { return wrong_.empty(); }
     [[nodiscard]] const std::string& wrong() const { return wrong_; }
 
-    /// Reads the number at a pointer such as "/late_us/max"; NaN where there is none, or null.
+    /// Reads the number at a pointer such as "/late_us/max"; NaN where it is missing or null.
     double optional_number(const char* pointer) { return number_in(json_, pointer); }
 
     double number(const char* pointer)
@@ -54,7 +54,7 @@ public:
         return v;
     }
 
-    /// A whole number of nanoseconds.
+    /// Reads a whole number of nanoseconds.
     base::TimePoint time(const char* key)
     {
         const auto found = json_.find(key);
@@ -66,7 +66,7 @@ public:
         return base::TimePoint{base::Duration{found->get<std::int64_t>()}};
     }
 
-    /// A list of objects.
+    /// Reads a list of objects.
     const Json* list(const char* key)
     {
         const auto found = json_.find(key);
@@ -153,7 +153,7 @@ EmulatorFrame::Way way_in(const Json& json, const std::string& way, FrameReader&
     return out;
 }
 
-/// Returns the name as it may stand in the name of a column.
+/// Returns the name in a form that may be part of the name of a column.
 std::string plain_name(const Json& json, FrameReader& in)
 {
     const auto found = json.find("name");

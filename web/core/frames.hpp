@@ -13,11 +13,11 @@
 
 namespace hapnet::web {
 
-/// A figure that is not known.
+/// The value of an unknown figure.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The part of a peer's frame that the server uses; pages get the whole text. Figures that the
-/// frame does not have are NaN.
+/// The part of a peer's frame that the server uses; pages get the whole text. Figures that are
+/// missing in the frame are NaN.
 struct PeerFrame {
     struct Heard {
         std::uint16_t from = 0;

@@ -26,7 +26,7 @@ constexpr std::array routes{
     Route{"/api/mark", posting},
 };
 
-/// A number from 0 to 255 in decimal digits, without leading zeros.
+/// True if the text is a number from 0 to 255 in decimal digits, without leading zeros.
 bool is_octet(std::string_view text)
 {
     if (text.empty() || text.size() > 3 || (text.size() > 1 && text.front() == '0')) return false;
@@ -104,7 +104,7 @@ bool Gate::is_token(std::string_view text) const
     return difference == 0;
 }
 
-/// True if "name:port" is one under which this server is meant to be asked.
+/// True if "name:port" is one of this server's own addresses.
 bool Gate::is_own(std::string_view authority) const
 {
     if (std::ranges::any_of(setup_.hosts, [&](const std::string& host) {
@@ -112,7 +112,7 @@ bool Gate::is_own(std::string_view authority) const
         })) {
         return true;
     }
-    // The colon of the port comes behind the bracket of an IPv6 address.
+    // The colon before the port follows the bracket of an IPv6 address.
     const auto bracket = authority.rfind(']');
     const auto colon = authority.find(':', bracket == std::string_view::npos ? 0 : bracket);
     const auto name = authority.substr(0, colon);
@@ -125,7 +125,7 @@ bool Gate::is_own(std::string_view authority) const
 bool Gate::is_own_origin(std::string_view origin) const
 {
     constexpr std::string_view scheme = "http://";
-    constexpr std::string_view sealed = "https://"; // a proxy in front may use it
+    constexpr std::string_view sealed = "https://"; // a proxy in front of the server may use it
     if (origin.starts_with(scheme)) return is_own(origin.substr(scheme.size()));
     return origin.starts_with(sealed) &&
            std::ranges::any_of(setup_.hosts, [&](const std::string& host) {

@@ -10,7 +10,7 @@
 
 namespace hapnet::web {
 
-/// The properties of a request that decide whether it is let in. nullopt: the request has no such
+/// The properties of a request that decide whether it is admitted. nullopt: the request has no such
 /// header.
 struct Asked {
     std::string_view method; // "GET"
@@ -23,15 +23,15 @@ struct Asked {
     bool is_upgrade = false;                 // asks to become a WebSocket
 };
 
-/// The reason why a request is not let in.
+/// The reason why a request is refused.
 struct Refusal {
     int status = 403;
     std::string error;        // a sentence for a person
     std::string_view allow{}; // for status 405: the methods that work
 };
 
-/// Decides who may ask for what: docs/use/web.md. The page's address is known to the user's
-/// browser, which any website can make ask; so nothing but host, origin and token counts.
+/// Decides which requests are admitted: docs/use/web.md. Any website can make the user's browser
+/// send requests to the page's address, so only host, origin and token count.
 class Gate {
 public:
     struct Setup {
@@ -42,7 +42,7 @@ public:
 
     explicit Gate(Setup setup);
 
-    /// Returns the refusal of a request; nullopt: it is let in.
+    /// Returns the refusal of a request; nullopt: it is admitted.
     [[nodiscard]] std::optional<Refusal> refuses(const Asked& asked) const;
 
     /// True if the text is the token. The time of the comparison depends on the length alone.
@@ -56,20 +56,20 @@ private:
     Setup setup_;
 };
 
-/// A path of the server, with its methods, and whether it needs the token.
+/// A path of the server, with its methods, and if it needs the token.
 struct Route {
-    std::string_view path;    // a path that ends with '/' includes all below it
+    std::string_view path;    // a path that ends with '/' includes all paths below it
     std::string_view methods; // "GET, HEAD"
     bool is_open = false;     // needs no token
 };
 
-/// nullptr: there is no such path. `target` may have a query.
+/// Returns the route of a target; nullptr: there is no such path. `target` may have a query.
 [[nodiscard]] const Route* route_of(std::string_view target);
 
-/// A target without its query.
+/// Returns a target without its query.
 [[nodiscard]] std::string_view path_of(std::string_view target);
 
-/// True if the name means this machine: "localhost", "[::1]", or any address of 127.0.0.0/8, each
+/// True if the name denotes this machine: "localhost", "[::1]", or any address of 127.0.0.0/8, each
 /// without a port. A name that merely begins with such an address is not accepted.
 [[nodiscard]] bool is_loopback_name(std::string_view name);
 

@@ -45,8 +45,8 @@ HandHold::Answer HandHold::on_message(std::uint64_t page, const HandMessage& mes
     const bool is_free = !is_held(now);
     const bool is_own = page_ == page && !is_free;
     if (!is_free && !is_own) return Answer::watches;
-    // The limit holds for all pages together: pages that let go and take the hand by turns are not
-    // heard more often.
+    // The limit applies to all pages together, so pages that take and release the hand in turn do
+    // not send more often.
     if (message.place && last_ && now - *last_ < least_apart) return Answer::too_soon;
     if (!message.place) {
         page_.reset();

@@ -61,7 +61,7 @@ void History::add(const std::vector<double>& row)
         growing_ = {kept.values, kept.values, kept.at_s};
     } else {
         for (std::size_t i = 0; i < kept.values.size(); ++i) {
-            // fmin() and fmax() give the other one where one is not a number.
+            // If one argument is NaN, fmin() and fmax() return the other one.
             growing_.least[i] = std::fmin(growing_.least[i], kept.values[i]);
             growing_.greatest[i] = std::fmax(growing_.greatest[i], kept.values[i]);
         }

@@ -9,8 +9,9 @@
 
 namespace hapnet::web {
 
-/// The figures of past live frames, so that a page that comes later sees its charts at once: all of
-/// two minutes, and the extremes of every eight of twenty. Its size is bounded. NaN: not known.
+/// The figures of past live frames, so that a page that connects later sees its charts at once: all
+/// rows of two minutes, and the extremes of every eight rows of twenty minutes. Its size is
+/// bounded. NaN: not known.
 class History {
 public:
     static constexpr std::size_t rows_max = 120UL * 60UL;
@@ -29,7 +30,8 @@ public:
     [[nodiscard]] std::size_t size() const { return rows_.size(); }
     [[nodiscard]] std::size_t coarse_size() const { return coarse_.size(); }
 
-    /// {"type":"history",...}, and the answer to GET /api/history; see docs/formats/live.md.
+    /// These functions return {"type":"history",...} and the answer to GET /api/history; see
+    /// docs/formats/live.md.
     [[nodiscard]] std::string fine_json() const;
     [[nodiscard]] std::string coarse_json() const;
 

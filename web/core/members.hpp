@@ -28,7 +28,7 @@ namespace hapnet::web {
     return found != reply.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-/// Characters of a text in UTF-8.
+/// Returns the number of characters of a text in UTF-8.
 [[nodiscard]] inline std::size_t characters_in(std::string_view text)
 {
     return static_cast<std::size_t>(std::ranges::count_if(

@@ -11,7 +11,7 @@ namespace hapnet::web {
 void Track::add(const Sample& sample)
 {
     if (!samples_.empty() && sample.at <= samples_.back().at) {
-        if (sample.at == samples_.back().at) return; // the peer's loop has made no step
+        if (sample.at == samples_.back().at) return; // the peer's loop has made no tick since
         samples_.clear();
     }
     samples_.push_back(sample);

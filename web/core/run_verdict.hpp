@@ -10,7 +10,7 @@ namespace hapnet::web {
 
 /// The statistics that a program of a run wrote at its end.
 struct ProgramStatistics {
-    std::string name; // as people call it: "A", "the emulator"
+    std::string name; // name for people: "A", "the emulator"
     std::string text; // contents of its file; empty: it wrote none
 };
 
@@ -19,13 +19,13 @@ struct RunVerdict {
     int run = 0;
     std::vector<std::string> because; // why the run is not valid; empty: it is valid
 
-    /// {"run":3,"valid":true,"invalid_because":[]}
+    /// Returns {"run":3,"valid":true,"invalid_because":[]}.
     [[nodiscard]] nlohmann::ordered_json json() const;
-    /// "run 3 has ended: valid", or why not.
+    /// Returns "run 3 has ended: valid", or the reasons why it is not.
     [[nodiscard]] std::string text() const;
 };
 
-/// The verdict by what all its programs say of themselves.
+/// Returns the verdict that follows from the statistics of all programs.
 [[nodiscard]] RunVerdict verdict_of(int run, const std::vector<ProgramStatistics>& programs);
 
 } // namespace hapnet::web

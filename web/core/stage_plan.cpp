@@ -16,12 +16,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t virtual_seed_max = 1'000'000'000; // limit for an experiment
-constexpr int lab_others_max = 2;                        // algorithms beside the chosen one
+constexpr int lab_others_max = 2; // algorithms in parallel with the chosen one
 constexpr const char* own_scene = "task";
 constexpr const char* held_for = "20s"; // the longest time that a trap may ask for
 constexpr std::int64_t seed_max = (std::int64_t{1} << 53) - 1; // exact in JavaScript
 
-/// Reads the members of a request onto a choice; the first trouble is remembered.
+/// Reads the members of a request into a choice and remembers the first error.
 class ChoiceReader {
 public:
     explicit ChoiceReader(const Json& json) : json_{json} {}
@@ -86,8 +86,8 @@ private:
 
 std::string pair_name(int a, int b) { return fmt::format("{}-{}", a, b); }
 
-/// Scenes in which a session of two can play every task: the others of the project share too many
-/// bodies, hang on joints, or have hands of different kinds.
+/// The scenes in which a session of two can play every task. The project's other scenes share too
+/// many bodies, have joints, or have hands of different kinds.
 constexpr std::array scenes_of_two{"bench",   "carry",           "guide",   "hammer",
                                    "lift",    "mass-ratio-1000", "paper",   "push-6dof",
                                    "rolling", "stack-of-three",  "turning", "wall"};
@@ -130,13 +130,13 @@ std::vector<std::string> names_of(const std::vector<Story>& stories)
     return names;
 }
 
-/// The device of a peer as its command line calls it.
+/// Returns the device of a peer in the form for its command line.
 const char* device_of(int id, const Choice& choice)
 {
     return id == 1 && choice.device == "page" ? "page" : "sim";
 }
 
-/// Tasks for more than two hands.
+/// True for tasks for more than two hands.
 bool is_for_many(std::string_view task) { return task == "T7" || task == "T8"; }
 
 } // namespace

@@ -31,7 +31,7 @@ struct Choice {
     [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// A choice to start from, and what there is to see in it.
+/// A choice to start from, and a description of what there is to see.
 struct Story {
     std::string name; // name in requests
     std::string title;
@@ -41,7 +41,7 @@ struct Story {
     [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// The sets that a page may choose from. No other text of a page reaches a command line.
+/// The sets of values from which a page may choose. No other text of a page reaches a command line.
 struct Choices {
     std::vector<std::string> modes{"live", "virtual"};
     std::vector<std::string> scenes; // the task's own scene first
@@ -58,16 +58,15 @@ struct Choices {
     [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// Returns the description of a profile: the first sentence of its comments, at most 160 bytes of
-/// it.
+/// Returns the description of a profile: the first sentence of its comments, at most 160 bytes.
 [[nodiscard]] std::string about_profile(std::string_view text);
 
-/// The sets of this version.
+/// Returns the sets of this version.
 [[nodiscard]] Choices all_choices(std::vector<std::string> presets);
 
-/// `before`, or the story that the request names in its mode and loop, with what the request says
-/// instead. The error names what is wrong and what would be right. Members that are not known are
-/// refused, "do" apart.
+/// Returns a choice with the values of the request. Values that the request does not have come from
+/// the story that it names, with the mode and loop of `before`, or else from `before`. The error
+/// names what is wrong and what would be right. Unknown members except "do" are refused.
 [[nodiscard]] base::Result<Choice> choice_of(const nlohmann::ordered_json& request,
                                              const Choice& before, const Choices& choices);
 
@@ -79,30 +78,32 @@ struct StageFolders {
     std::string kept;     // for the last seconds that the daemons keep in memory
 };
 
-/// The words of a command, the program first; and the control socket that it makes.
+/// A command: its words, the program first, and the control socket that it makes.
 struct Start {
     std::vector<std::string> words;
     std::string socket;
     std::string log; // file for its output
 };
 
-/// The emulator of a choice: one path of two peers, a link for every two of more.
+/// Returns the command for the emulator of a choice: one path for two peers, or a link between
+/// every two of more peers.
 [[nodiscard]] Start emulator_start(const Choice& choice, const StageFolders& folders);
 
 /// The places to which peers send. "1-2" is the place to which peer 1 sends to reach peer 2. They
-/// are read from the line that the emulator prints when it is ready. The error says that the line
-/// is another one.
+/// are read from the line that the emulator prints when it is ready. The error says that it is
+/// another line.
 using Places = std::map<std::string, std::string, std::less<>>;
 [[nodiscard]] base::Result<Places> places_in(std::string_view ready_line, int peers);
 
-/// A session in virtual time instead of an emulator and peers: with the other algorithms beside
-/// the chosen one, where two play.
+/// Returns the command for a session in virtual time instead of an emulator and peers. With two
+/// peers, the other algorithms play in parallel with the chosen one.
 [[nodiscard]] Start lab_start(const Choice& choice, const StageFolders& folders,
                               const Choices& choices);
-/// The sockets of its peers.
+/// Returns the sockets of the session's peers.
 [[nodiscard]] std::vector<std::string> lab_peer_sockets(const std::string& socket, int peers);
 
-/// A peer, 1 to choice.peers; never with a real device. `places` is of places_in().
+/// Returns the command for a peer, 1 to choice.peers. It never uses a real device. `places` comes
+/// from places_in().
 [[nodiscard]] Start peer_start(int id, const Choice& choice, const StageFolders& folders,
                                const Places& places);
 

@@ -11,12 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The last part of a path: the rest is of no use to a page.
+/// Returns the last part of a path. A page has no use for the rest.
 std::string file_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-/// The member of a reply; null where there is none.
+/// Returns the member of a reply; null where there is none.
 Json member(const Json& reply, const char* key)
 {
     const auto found = reply.is_object() ? reply.find(key) : reply.end();
@@ -34,7 +34,7 @@ Json emulator_json(const EmulatorState& emulator)
     return json;
 }
 
-/// The place of a scene among those that were seen before, where it is added if it is new.
+/// Returns the place of a scene in the list of seen scenes. A new scene is appended.
 Json place_of(const Json& scene, Json& scenes)
 {
     if (!scene.is_object()) return nullptr;

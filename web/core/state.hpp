@@ -30,22 +30,22 @@ struct PeerState {
     std::string error{};
     bool shares_clock = false; // has the same clock as the first peer
 
-    /// 0: not known yet.
+    /// Returns the peer's id; 0: not known yet.
     [[nodiscard]] std::uint16_t id() const;
     [[nodiscard]] std::string boot_id() const;
-    /// True if pages may move its hand.
+    /// True if pages may move the peer's hand.
     [[nodiscard]] bool takes_hand() const;
 };
 
-/// "A" for the first place.
+/// Returns the letter of a place: "A" for the first.
 [[nodiscard]] std::string capital_letter(std::size_t place);
 
 /// Returns the name of the peer at that place for people: its letter, where "A" is the lowest id.
 /// While some ids are unknown, so that their order is unknown too, the name is "peer 2" and so on.
 [[nodiscard]] std::string name_of_peer(const std::vector<PeerState>& peers, std::size_t place);
 
-/// The state that pages get: docs/formats/live.md. `peers` are in the order of the live frames;
-/// the members of `others` follow as they are.
+/// Returns the state for pages: docs/formats/live.md. `peers` are in the order of the live frames.
+/// The members of `others` are appended unchanged.
 [[nodiscard]] nlohmann::ordered_json state_json(double at_s, const EmulatorState& emulator,
                                                 const std::vector<PeerState>& peers,
                                                 const nlohmann::ordered_json& others);

@@ -15,8 +15,9 @@
 
 namespace hapnet::web {
 
-/// Waits for a condition on the live figures, then for what follows, and then wants the last
-/// seconds saved: once, until it has rested. Does no I/O and reads no clock.
+/// Waits for a condition on the live figures. When the condition is true, the trap waits for a
+/// short aftermath and then requests once that the last seconds are saved. After a rest it is armed
+/// again. It does no I/O and reads no clock.
 class Trap {
 public:
     static constexpr base::Duration aftermath{std::chrono::seconds{2}};
@@ -25,20 +26,21 @@ public:
     static constexpr base::Duration last_max{std::chrono::seconds{20}};
     static constexpr base::Duration last_usual{std::chrono::seconds{10}};
 
-    /// The error says what may be named. `names`: of all figures that there may be.
+    /// Arms the trap. `names` are the names of all figures that are possible. The error says which
+    /// names are allowed.
     [[nodiscard]] base::Result<void> arm(const std::string& when, base::Duration last,
                                          std::span<const std::string> names);
     void disarm() { state_ = State::disarmed; }
 
-    /// The event of one step.
+    /// The result of one step.
     enum class News : std::uint8_t { none, fired, wants_keep, armed_again };
-    /// The newest figures.
+    /// Checks the newest figures.
     [[nodiscard]] News step(const Figures& figures, base::TimePoint now);
 
     [[nodiscard]] base::Duration last() const { return last_; }
     [[nodiscard]] std::uint64_t fired() const { return fired_; }
     [[nodiscard]] std::string when() const;
-    /// `state`, `when`, `last`, `fired`, `says`.
+    /// Returns `state`, `when`, `last`, `fired`, `says`.
     [[nodiscard]] nlohmann::ordered_json json() const;
 
 private:

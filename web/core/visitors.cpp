@@ -19,7 +19,7 @@ void Visitors::make_room()
         std::ranges::find_if(*all_, [](const Entry& entry) { return entry.visitor.is_idle(); });
     const auto leaves = idle == all_->end() ? all_->begin() : idle;
     const Visitor visitor = std::move(leaves->visitor);
-    all_->erase(leaves); // before it is closed, as closing may end its visit
+    all_->erase(leaves); // before close(), which may end its visit
     visitor.close();
 }
 

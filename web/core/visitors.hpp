@@ -19,7 +19,8 @@ struct Visitor {
 
 class Visit;
 
-/// All connections except those of viewers, which have shown the token and have their own limit.
+/// All connections except those of viewers. Viewers have shown the token and have a limit of their
+/// own.
 class Visitors {
 public:
     explicit Visitors(std::size_t most) : most_{most} {}
@@ -27,7 +28,7 @@ public:
     /// Admits a visitor. A visitor beyond the limit replaces the oldest idle one, or the oldest one
     /// if none is idle, so that idle connections keep no browser out.
     [[nodiscard]] Visit admit(Visitor visitor);
-    /// Closes all of them.
+    /// Closes all connections.
     void close_all();
 
     [[nodiscard]] std::size_t count() const { return all_->size(); }
@@ -38,7 +39,7 @@ private:
         std::uint64_t id = 0;
         Visitor visitor;
     };
-    using Entries = std::list<Entry>; // in the order in which they came
+    using Entries = std::list<Entry>; // in the order of their arrival
 
     void make_room();
 
@@ -47,7 +48,8 @@ private:
     std::uint64_t next_id_ = 1;
 };
 
-/// A visitor's place, as long as it lives. It may outlive the visitors: connections end last.
+/// A visitor's place, valid as long as this object lives. It may outlive the visitors: connections
+/// end last.
 class Visit {
 public:
     Visit(Visit&&) noexcept = default;

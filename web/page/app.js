@@ -28,7 +28,7 @@ import { farthestOf, meanOf, sentenceOf, verdictOf } from "./verdict.js";
 import { Wishes } from "./wishes.js";
 import { Worlds } from "./worlds.js";
 
-const describeMs = 100; // so that the number is that of the picture
+const describeMs = 100; // so that number and picture agree
 
 const model = new Model();
 const orbit = new Orbit();
@@ -158,7 +158,7 @@ const connection = ({ open, says }) => {
   say(byId("connection"), says);
 };
 
-// Whatever changes costs a picture of the whole page: all of it changes in the same turns.
+// Any change repaints the whole page, so all parts change in the same turns.
 let described = 0;
 document.addEventListener("visibilitychange", () => rhythm.rest());
 let rhythm = new Rhythm();
@@ -199,7 +199,7 @@ const start = async () => {
   charts = new ChartPanel(byId("charts"), byId("chart-table"), model);
   if (model.state) showPath();
   requestAnimationFrame(turn);
-  const three = byId("three").getAttribute("href") !== ""; // else the build had none
+  const three = byId("three").getAttribute("href") !== ""; // else the build lacks three.js
   byId("credit").hidden = !three;
   const painter = await painterFor(byId("worlds"), three);
   rhythm = new Rhythm({ level: painter.level });

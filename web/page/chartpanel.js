@@ -14,9 +14,9 @@ import { spoken } from "./units.js";
 
 const pointsMax = 500;
 const steps = [1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
-// Usual is what that share of the values lies below; a peak lies so many times above it.
+// This share of the values is usual; a peak is this many times above it.
 const [usual, isPeak] = [0.98, 1.5];
-const unseenEvery = 10; // a chart out of sight is drawn so much more seldom
+const unseenEvery = 10; // a chart out of sight is drawn this much less often
 const farApart = 0.25; // s between two values that a line joins, where the chart could show more
 
 /** The next round value at or above. */
@@ -179,7 +179,7 @@ class Panel {
     this.to = to;
     this.view = { x: [from - to, 0], y: [0, this.#top(series, this.curves)], says: inSeconds };
     say(this.note, this.#notes(series, x, this.view.y[1], why));
-    this.chart.update([...this.curves].reverse(), this.view); // what was asked lies on top
+    this.chart.update([...this.curves].reverse(), this.view); // requested values lie on top
     const { pointed } = this.chart;
     const point = pointed === null ? x.length - 1 : nearest(x, pointed);
     this.curves.forEach(({ y }, i) => say(this.values[i], spoken(y[point] ?? null)));

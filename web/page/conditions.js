@@ -12,12 +12,12 @@ const copy = async (text) => {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return false; // no permission: the text is shown, to be copied by hand
+    return false; // no permission: the viewer copies the shown text
   }
 };
 
 export class Conditions {
-  #chosen = undefined; // a preset; null: other conditions; undefined: what the session began with
+  #chosen = undefined; // a preset; null: other conditions; undefined: as at the session's start
   #signature = "";
 
   constructor(model, tell) {

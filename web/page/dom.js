@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Elements, made without any HTML text: what comes from outside can only ever be text.
+// Makes elements without any HTML text: data from outside can only become text.
 
 /** An element; of `members` those that start with "on" are listeners, the others attributes. */
 export const make = (name, members = {}, ...children) => {

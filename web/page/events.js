@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What happened, newest first, and the files that came of it.
+// The events, newest first, and the files that they left.
 
 import { download, get } from "./api.js";
 import { announce, byId, make, say } from "./dom.js";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The live connection: opens it, shows who we are, acknowledges frames, comes back when it broke.
+// The live connection: sends the token, acknowledges frames, reconnects when it breaks.
 
 import { token } from "./api.js";
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The help panel, and full screen: what is there for everyone who looks.
+// The help panel and full screen, for every viewer.
 
 import { byId } from "./dom.js";
 

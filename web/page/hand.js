@@ -7,10 +7,10 @@
 import { announce, make, say } from "./dom.js";
 import { halfHeightOf } from "./paint/picture.js";
 
-const againMs = 40; // a hand of which nothing is heard for 250 ms is let go
+const againMs = 40; // the server releases a hand after 250 ms of silence
 const reachMm = 250;
 const keyMm = 2;
-const wheelMm = 0.05; // for a unit of the wheel
+const wheelMm = 0.05; // per unit of the wheel
 const fromAbove = 0.8; // rad: from there on the picture shows more of x and z than of x and y
 const touchesN = 0.05;
 const leastCosine = 0.4; // an axis that points at the viewer would outrun every pointer
@@ -22,7 +22,7 @@ const moves = {
 };
 
 export class Hand {
-  #root = null; // of the pane that is listened to
+  #root = null; // of the pane with the listeners
   #goal = null; // mm, while this page holds the hand or asks for it
   #timer = 0;
   #touches = false;
@@ -161,7 +161,7 @@ export class Hand {
         this.letGo();
       });
     }
-    on("dblclick", (event) => { // two quick grasps do not put the view back
+    on("dblclick", (event) => { // two quick grasps do not reset the view
       if (isHere() && !event.altKey) event.stopImmediatePropagation();
     });
     on("wheel", (event) => {

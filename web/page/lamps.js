@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The wire between two worlds: a cell for each frame and direction, filled by what became of its
+// The wire between two worlds: a cell for each frame and direction, filled by the fate of its
 // datagrams. Up runs from A to the right, down from B to the left; the newest is at its sender.
 
 import { make, say } from "./dom.js";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the page knows: the server's state, the frames of the last minutes, and figures over time.
+// The page's data: the server's state, the frames of the last minutes, and figures over time.
 // It decides nothing by itself: every value is one that the server sent.
 
 import { Columns } from "./columns.js";

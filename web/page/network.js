@@ -28,8 +28,8 @@ export class Network {
   #rows = [];
   #signature = "";
 
-  #wantsLinked = true; // by the viewer
-  #isAligning = false; // asked for, not answered
+  #wantsLinked = true; // the viewer's choice
+  #isAligning = false; // requested, not answered
 
   /**
    * `ends(path)` gives the letters of the two peers that a path joins, `tell(text, isError)` shows

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Virtual time: play, pause, step, how fast, and saving what was done as an experiment.
+// Virtual time: play, pause, step, pace, and saving the session as an experiment.
 
 import { post } from "./api.js";
 import { announce, byId, say } from "./dom.js";

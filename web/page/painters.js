@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What draws here: a graphics card or the processor in its place, as far as the browser tells, and
-// which painter of worlds: with three.js and WebGL the one in space, else a still picture.
+// Finds what draws: a graphics card or the processor, as far as the browser tells, and the painter
+// of worlds: in space with three.js and WebGL, else a still picture.
 
 const probe = () => {
   const gl = document.createElement("canvas").getContext("webgl2");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // What the charts show: for each its title, unit, the label of its axis, where the values are from,
 // least span and curves. A curve names a column of the figures; `band` draws from its least to its
-// most, `dash` is what was asked for, `beside` is there to compare and does not choose the scale. A
+// most, `dash` marks requested values, `beside` is a comparison that does not set the scale. A
 // plot that is `robust` may cut peaks off, one that `needsEmulator` is empty without one.
 
 import { colourOfAlgorithm, colourOfPeer } from "./paint/palette.js";

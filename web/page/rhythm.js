@@ -5,9 +5,9 @@
 // picture as one takes, so that keys, answers and figures wait for one picture at most.
 
 const onTimeMs = 25; // from turn to turn, at 60 Hz and a little late
-const dearMs = 12; // a picture that delays the browser by more loses quality
+const dearMs = 12; // a picture that delays the browser more gets worse quality
 const cheapMs = 3;
-const apartMsMax = 400; // between pictures, however dear they are
+const apartMsMax = 400; // between pictures, whatever they cost
 const drawingsToJudge = 8;
 const drawingsToTrust = 600; // 10 s at best
 const drawingsMax = 20_000;
@@ -49,7 +49,7 @@ export class Rhythm extends EventTarget {
     this.#cost += 0.2 * (this.#late - this.#cost);
     this.#judged += 1;
     if (this.#cost > dearMs && this.#judged >= drawingsToJudge && this.level < this.worst) {
-      // What was tried and turned out too dear is tried less often.
+      // A quality that was too dear is tried less often.
       if (this.#isTrial) this.#trust = Math.min(2 * this.#trust, drawingsMax);
       this.#change(1);
     } else if (this.#cost < cheapMs && this.#judged >= this.#trust && this.level > 0) {

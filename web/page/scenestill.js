@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Where there is no WebGL, or no three.js: a still picture of each world, seen from the front as it
-// begins, and beside it in words where the bodies and the hand are now.
+// Without WebGL or three.js: a still picture of each world at its start, seen from the front, and a
+// text with the present places of the bodies and the hand.
 
 import { make, say } from "./dom.js";
 import { drawing, element, paintOf } from "./figures/svg.js";

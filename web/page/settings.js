@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The settings that have a slider: what they show of a condition, and what they ask for.
+// The settings with a slider: how they read a condition, and what they request.
 
 import {
   jitterOf,

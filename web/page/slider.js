@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// A slider with a number beside it. It shows what the server says; while it waits for an answer to
-// what the viewer asked, it is hollow.
+// A slider with a number beside it. It shows the server's value. While it waits for an answer to
+// the viewer's request, it is hollow.
 
 import { make, say } from "./dom.js";
 import { spokenSetting } from "./settings.js";
@@ -10,7 +10,7 @@ import { spoken } from "./units.js";
 let count = 0;
 
 export class Slider {
-  #asked = null; // what the viewer wants, until the server has answered
+  #asked = null; // the viewer's value, until the server answers
   #shown = 0;
 
   /**

@@ -48,7 +48,7 @@ export const statusOf = (state) => {
 
 /** True if a run of the stage is over, and the next has not begun. */
 export const isOver = (state) => {
-  const { stage, pace } = state ?? {}; // null before the server has told it
+  const { stage, pace } = state ?? {}; // null before the first state
   return Boolean(stage?.available) && stage.state === "stopped" && stage.run > 0 && !pace;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Sentences about what one sees: how far apart the copies are and why, and whether a session under
-// these conditions is usable by the convention of scripts/criteria/paper.toml.
+// Sentences for viewers: how far apart the copies are and why, and whether a session under these
+// conditions is usable by the convention of scripts/criteria/paper.toml.
 
 import { askedDelay, conditionsOf } from "./rows.js";
 import { isOver } from "./status.js";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// A pane for each peer with its world in it, painted by whichever painter there is, and labels in
-// it over what has to be told apart, each with its colour.
+// A pane for each peer with its world in it, painted by whichever painter there is, and labels
+// over bodies that must be told apart, each with its colour.
 
 import { byId, make, say } from "./dom.js";
 import { colourOfAlgorithm } from "./paint/palette.js";

@@ -69,7 +69,7 @@ export const drawnBars = (figure, size, { hidden, top } = {}) => {
   paintGrid(surface, box, scale);
   paintNames(surface, box, figure, further);
   const stepOf = ({ bars }) => Math.min((0.85 * room) / Math.max(bars.length, 1), widestBar);
-  // The axis, the words of a bar and the table say the same: numbers that overlap say nothing.
+  // Overlapping texts are left out: the axis, a bar's words and the table say the same.
   const hasTexts = groups.every((group) =>
     group.bars.every((bar) => widthOf(bar.text) + 4 <= stepOf(group)));
   groups.forEach((group, index) => {

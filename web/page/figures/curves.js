@@ -208,7 +208,7 @@ export const paintCurves = (surface, size, curves, view) => {
     surface.text([x.pixel(mark), box.bottom + 15], "middle", says(mark));
   }
   if (view.names) paintNames(surface, box, view.names);
-  const edge = 4; // pixels: half a dot that lies on the edge
+  const edge = 4; // pixels: half a dot at the edge
   const clip = {
     left: box.left - edge, right: box.right + edge, top: box.top - edge, bottom: box.bottom + edge,
   };

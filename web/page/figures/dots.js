@@ -7,7 +7,7 @@ import { roundSpan, scaleOf, spanOf } from "./scales.js";
 import { drawLine, SvgSurface } from "./surface.js";
 import { boxOf, drawing, element, nameOfAxis, paintOf, text, wrapped } from "./svg.js";
 
-const [lineHeight, laneHeight] = [14, 22]; // pixels: of a name, of all else in a row
+const [lineHeight, laneHeight] = [14, 22]; // pixels: of a name, of the rest of a row
 const [left, below] = [14, 42]; // pixels: the room beside and below the rows
 const valueWidth = 64; // pixels: of the number at the right of a name
 

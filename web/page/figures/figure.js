@@ -59,7 +59,7 @@ class Still extends Figure {
     new ResizeObserver(() => this.draw()).observe(this.area);
     this.area.addEventListener("pointerover", ({ target }) =>
       say(this.pointedAt, target.closest(".part")?.dataset.tip ?? ""));
-    // A finger leaves with every tap: what it tapped stays said until the next.
+    // A finger leaves with every tap: the value stays shown until the next one.
     this.area.addEventListener("pointerleave", ({ pointerType }) => {
       if (pointerType !== "touch") say(this.pointedAt, "");
     });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // A figure as a file of its own: with its title and legend, in the light colours of the palette.
-// A figure brings what draws its kind, so that a page loads no other: `draw(figure, size,
+// A figure brings the functions that draw it, so a page loads no others: `draw(figure, size,
 // options)`, and `heightAt(figure, width)` where the height follows from the data.
 
 import { make } from "../dom.js";

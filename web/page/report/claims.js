@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What of the results stands against the paper, and what is claimed beyond it.
+// The results that are compared with the paper, and the claims beyond it.
 
 import { firstLookOf, shortfallWords } from "./runs.js";
 import {

@@ -16,7 +16,7 @@ import { Rhythm } from "../rhythm.js";
 import { Replay } from "./replay.js";
 
 const stripPoints = 1500; // of a curve: finer than pixels
-const thrown = 400; // mm: what flew off is cut
+const thrown = 400; // mm: a body that flew off is cut
 
 /** "A" of "A", "3" of "peer 3". */
 const letterOf = (name) => name.split(" ").at(-1).slice(0, 2);
@@ -41,7 +41,7 @@ const partsOf = () => {
 export class Player {
   at = 0; // row, with a fraction
   #last = null; // time stamp of the frame before; null: stopped
-  #asked = false; // a frame that paints
+  #asked = false; // the frame that will paint
   #hidden = new Set();
 
   constructor(root, data) {
@@ -81,7 +81,7 @@ export class Player {
     fillSelect(algorithm, [...new Set(this.data.map((one) => one.algorithm))]
       .map((name) => [name, name]));
     this.choose();
-    this.goTo(0.2 * this.replay.count); // at its beginning nothing happens yet
+    this.goTo(0.2 * this.replay.count); // nothing happens at its beginning
     return this.painter.kind;
   }
 

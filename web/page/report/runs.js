@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// How results came about, and whether they count: what their manifests say.
+// The origin of results and whether they count, from their manifests.
 
 import { banner, folded, general, name, notValid, paragraph, table, words } from "./words.js";
 

@@ -292,7 +292,7 @@ withoutRepeats(rows).map((row) => [row.value, name(row.algorithm),
   name(inWords(row.impairment)), name(row.task), ours(`${limitText(row)} ${inWords(row.unit)}`),
   intervalOf(row), String(row.seeds)]));
 
-const rowsAtSight = 24; // of a table whose numbers the figures above it show
+const rowsAtSight = 24; // of a table whose figures are above it
 
 const foldedIfLong = (block) => (block.table.rows.length <= rowsAtSight ? [block]
   : [folded(`All ${block.table.rows.length} limits as a table`, [block])]);

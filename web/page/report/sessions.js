@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Recorded sessions: what was played, how far to trust it, and how to repeat it.
+// Recorded sessions: what was played, how reliable it is, and how to repeat it.
 
 import {
   figures, heading, notValid, panels, paragraph, table, textTable, words, zoomed,
