@@ -9,8 +9,8 @@
 namespace hapnet::emulator {
 
 /// The paths of a run whose parts relay concurrently. Each part has Paths of its own, which also
-/// know the decisions for the paths of the other parts, so that all parts decide alike. Each
-/// command goes to all parts. Call the functions of this class only while no part is at work.
+/// know the decisions for the paths of the other parts, so that all parts decide the same.
+/// Each command goes to all parts. Call the functions of this class only while no part is at work.
 class AllPaths {
 public:
     /// All paths of a run with one part. Implicit: most runs have one part.

@@ -28,7 +28,7 @@ bool is_preloaded()
 
 } // namespace
 
-// The libraries under umockdev lock by means that ThreadSanitizer does not see. They call pass_read()
+// The libraries under umockdev lock by means that ThreadSanitizer does not see. They call pass_read
 // and the like on their own thread, which runs nothing but the emulated device.
 // NOLINTNEXTLINE(bugprone-reserved-identifier): its name for it
 extern "C" const char* __tsan_default_suppressions();
