@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Whole networks at once: presets, a sentence as tc-netem takes it, back to the start, and the
-// present conditions as TOML. A preset is chosen here alone: it holds at once, and a session that
-// is started begins with it.
+// Whole networks: presets, a sentence of tc-netem, the conditions at the start, and the present
+// ones as TOML. A preset holds at once, and a session that starts begins with it.
 
 import { post } from "./api.js";
 import { byId, make, say } from "./dom.js";

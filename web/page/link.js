@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// A link that carries the settings of the page in its fragment, and never the token: who opens it
-// needs the address of a server of their own, or of this one, as hapnet-web printed it.
+// A link with the page's settings in its fragment, without the token: its reader needs the address
+// that hapnet-web printed.
 
 import { post, wanted } from "./api.js";
 import { announce, byId, say } from "./dom.js";

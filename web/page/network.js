@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The network under one's fingers: sliders for one path, or a matrix of them for the links of
-// several peers. Both directions together, or each on its own, as it must be where they differ.
+// Sliders for one path, or a matrix of them for the links of several peers: both directions
+// together, or each alone where they differ.
 
 import { fillSelect, make, say } from "./dom.js";
 import { conditionsOf, prefixOf } from "./rows.js";

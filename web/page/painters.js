@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Finds what draws: a graphics card or the processor, as far as the browser tells, and the painter
-// of worlds: in space with three.js and WebGL, else a still picture.
+// Chooses the painter of worlds: three.js with WebGL, on a graphics card or the processor as the
+// browser reports, or a still picture.
 
 const probe = () => {
   const gl = document.createElement("canvas").getContext("webgl2");

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// When to draw, and how well. Where pictures are dear, as without a graphics card, the browser is
-// late after each of them. Then quality is lowered, and the browser gets as much time without a
-// picture as one takes, so that keys, answers and figures wait for one picture at most.
+// Decides when to draw, and how well. Without a graphics card each picture delays the browser. Then
+// the quality falls, and the browser gets as much time without a picture as one takes.
 
 const onTimeMs = 25; // from turn to turn, at 60 Hz and a little late
 const dearMs = 12; // a picture that delays the browser more gets worse quality

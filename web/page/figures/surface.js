@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What curves are drawn on: elements of SVG, which print and save well, or the pixels of a canvas,
-// which cost a tenth when they change ten times a second. A surface begins a path, which takes
-// moveTo(), lineTo() and closePath(), and then draws it in a style of SVG's attributes.
+// A surface for curves: elements of SVG, which print and save well, or pixels of a canvas, which
+// cost a tenth at ten changes a second. A surface begins a path (moveTo, lineTo, closePath) and
+// draws it in a style of SVG's attributes.
 
 import { element } from "./svg.js";
 
