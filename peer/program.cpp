@@ -44,7 +44,7 @@ constexpr std::string_view program = "hapnet-peer";
 /// The time after a stop at which the process ends in any case. An orderly end takes a tenth of it.
 constexpr base::Duration gone_after{std::chrono::milliseconds{800}};
 
-/// The text queues of stdout and stderr, which nobody needs to read.
+/// The text queues of stdout and stderr. Their readers may be slow or absent.
 struct Screen {
     net::TextQueue out{STDOUT_FILENO};
     net::TextQueue err{STDERR_FILENO};

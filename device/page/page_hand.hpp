@@ -54,8 +54,9 @@ public:
     [[nodiscard]] const Identity& identity() const override { return identity_; }
     [[nodiscard]] const Capabilities& capabilities() const override { return capabilities_; }
     [[nodiscard]] Sample read(base::TimePoint now) override;
-    void apply(const GovernedForce& /*force*/) override {} // the page draws it; nobody feels it
-    void halt() noexcept override {}                       // it has no motors
+    /// Does nothing: the page draws the force, and this device has no motors.
+    void apply(const GovernedForce& /*force*/) override {}
+    void halt() noexcept override {} // it has no motors
     void on_cue(const Cue& /*cue*/) override { has_start_ = true; }
 
 private:

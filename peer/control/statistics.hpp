@@ -13,7 +13,7 @@
 
 namespace hapnet::peer {
 
-// Those parts of a peer's statistics that exist both in real time and in virtual time.
+// The parts of a peer's statistics that exist both in real time and in virtual time.
 
 /// The punctuality of a loop.
 struct TickReport {
