@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Whether a scene's bits depend on the compiler: runs every play of tests/bits for 20 s, built by
-# GCC and Clang at -O0, -O2 and -O3 -march=native, and compares the hashes.
+# Shows whether a scene's bits depend on the compiler: runs every play of tests/bits for 20 s, built
+# by GCC and Clang at -O0, -O2 and -O3 -march=native, and compares the hashes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

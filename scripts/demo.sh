@@ -70,7 +70,7 @@ program=demo bin=${programs:-build/release/bin}
 # shellcheck source=scripts/lib/session.sh
 . scripts/lib/session.sh
 
-# step N WORDS: what begins now, of how many steps.
+# step N WORDS: announces step N, of $steps.
 steps=3
 step() {
     printf '\ndemo: step %d of %d, %s\n' "$1" "$steps" "$2"
@@ -82,7 +82,7 @@ why_invalid() {
         "emulator " + .)] | join("; ")' "$1/analysis.json" "$1/emulator.json"
 }
 
-# run_session FOLDER TASK SECONDS: two hands at one cube, 160 ms apart; or so many, 40 ms apart.
+# run_session FOLDER TASK SECONDS: two hands at one cube, 160 ms apart; or $peers, 40 ms apart.
 run_session() {
     local folder=$1 delay=160ms
     [[ -z $circle ]] || delay=40ms
@@ -130,22 +130,22 @@ conclude() {
         --wall-time $((SECONDS - started))
 }
 
-# show_results PAGE WORDS: the last lines.
+# show_results PAGE WORDS: prints the last lines.
 show_results() {
     printf '\ndemo: records, rows (CSV), statistics and manifest.json are in %s\n' "$out"
     printf 'demo: open file://%s\n' "$1"
     printf 'demo: this page shows %s\n' "$2"
 }
 
-# open_page ADDRESS FOLDER: in a browser, if there is one. Arguments are seen by every user of the
-# machine, so the browser is given a file of mode 0600 that leads to the address and its token.
+# open_page ADDRESS FOLDER: opens a browser, if there is one. Arguments are seen by every user of
+# the machine, so the browser is given a file of mode 0600 that leads to the address and its token.
 open_page() {
     [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]] && command -v xdg-open >/dev/null || return 0
     (umask 077 && printf '<meta http-equiv="refresh" content="0; url=%s">\n' "$1" >"$2/page.html")
     xdg-open "$2/page.html" >/dev/null 2>&1 || true
 }
 
-# show_page FOLDER: the live page, until Ctrl-C.
+# show_page FOLDER: shows the live page, until Ctrl-C.
 show_page() {
     local private opened page
     mkdir -p "$1"

@@ -72,7 +72,7 @@ for name in "${names[@]}"; do
     more=()
     [[ -z $conventions || $name != fig6[ab] ]] || more=(--set "convention.seeds=$conventions")
     "$lab" run "$name" "${options[@]}" "${more[@]}" --out "$folder"
-    # Whether the limits of these seeds are those that are published: by the shipped one alone.
+    # Compares the limits of these seeds with the published ones, if the experiment is unchanged.
     if [[ $name == fig6[ab] && -z ${quick[*]} && $changed == no ]] &&
         command -v python3 >/dev/null; then
         python3 scripts/limits_pool.py agree "$folder"

@@ -23,7 +23,7 @@ OFFSET_MM, STOP_MM = 22.0, 52.7
 DELAY_S, BEGIN_S, END_S = 0.160, 0.160, 30.0
 PAPER_BASE = (13.789, 10.986, 46.01)  # mean, standard deviation, maximum, mm
 PAPER_RECKONED = (3.341, 3.840, 58.85)
-WIDTH_MM = (-80.0, 80.0)  # of the cube, in an Omni's reach
+WIDTH_MM = (-80.0, 80.0)  # the cube's range in an Omni's reach
 TICK_S = 0.001
 
 

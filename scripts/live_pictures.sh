@@ -24,7 +24,7 @@ still=docs/images/live.png animated=docs/images/live-worlds.png report=docs/imag
 session=docs/images/session.png run=docs/images/run.png
 node tests/web/picture.mjs "$still" "$animated" "$report" "$session" "$run"
 
-# check FILE BYTES: says how large it is, and whether that is too much.
+# check FILE BYTES: prints the file's size, and fails if it exceeds BYTES.
 check() {
     local size
     size=$(stat -c %s "$1")

@@ -72,7 +72,7 @@ for component in "${components[@]}"; do
     cmake --install "$build" --component "$component" --prefix "$build/tarball/$name" --strip
 done
 cp README.md LICENSE CHANGELOG.md "$build/tarball/$name"
-# The programs of the tarball hold others' libraries: their notices, as Debian states them.
+# The programs of the tarball contain libraries of others: their notices, as Debian states them.
 linked=(libboost1.74-dev libexpected-dev libfmt-dev libgcc-12-dev librandom123-dev
     libreaderwriterqueue-dev libspdlog-dev libstdc++-12-dev libtomlplusplus-dev nlohmann-json3-dev)
 [[ -n $only ]] || linked+=(libglm-dev libhidapi-dev libsodium-dev libusb-1.0-0-dev)

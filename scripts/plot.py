@@ -159,7 +159,7 @@ def draw_lateness(plot, rows):
     yield "lateness", lines(plot, rows, ["subject"], "later_us", "share_percent", "linear")
 
 
-# By columns, not by names: a file may have been renamed. The first that fits draws it.
+# Painters are found by columns, because a file may have been renamed. The first match draws.
 PAINTERS = [
     ({"algorithm", "mean_mm", "std_mm", "max_mm", "paper_mean_mm", "verdict"}, draw_table1),
     ({"algorithm", "impairment", "task", "limit", "bound", "paper_limit", "seeds"}, draw_limits),
@@ -169,7 +169,7 @@ PAINTERS = [
     ({"varied", "task", "algorithm", "figure", "wall_s", "error_mm"}, draw_run_time),
     ({"subject", "later_us", "share_percent"}, draw_lateness),
 ]
-NOT_LIMITS = {"parameter", "filter_order"}  # limits again, by what was varied
+NOT_LIMITS = {"parameter", "filter_order"}  # repeat the limits for varied settings: not drawn
 
 
 def painter_of(columns):

@@ -104,7 +104,7 @@ play_all() {
 # scene_of T7|T8: where it is played, also by two.
 scene_of() { if [[ $1 == T8 ]]; then echo turning; else echo carry; fi; }
 
-# play_many: one session of so many peers.
+# play_many: plays one session with $circle peers.
 play_many() {
     local folder=$out/real-time/loopback/${task,,}-$peers
     mkdir -p "$folder"
@@ -115,7 +115,7 @@ play_many() {
     analyse "$folder"
 }
 
-# play_cell FOLDER PEERS TASK SECONDS SEED: the session whose files are in the folder.
+# play_cell FOLDER PEERS TASK SECONDS SEED: plays the session whose files are in the folder.
 play_cell() {
     local folder=$1 peers=$2 id
     local network=(--profile "$folder/profile.toml" --seed "$5")
@@ -134,7 +134,7 @@ play_cell() {
     analyse "$folder"
 }
 
-# play_experiment: session by session, as hapnet-lab asks for them.
+# play_experiment: plays session by session, as hapnet-lab asks for them.
 play_experiment() {
     local line folder peers task seconds seed words quickly=()
     [[ -z $quick ]] || quickly=(--quick)
@@ -149,7 +149,7 @@ play_experiment() {
     done
 }
 
-# conclude: the tables from all that was played.
+# conclude: makes the tables from all sessions played.
 conclude() {
     echo
     "$bin/hapnet-lab" real-time "$out" --command "$command_line" --start "$start" \
@@ -160,7 +160,7 @@ conclude() {
 start=$(date -u +%FT%TZ)
 started=$SECONDS
 if [[ -n $experiment ]]; then
-    # Also when it is interrupted.
+    # The tables are made also after an interruption.
     trap 'stop_children; [[ -z $(compgen -G "$out/cells/*/*/result.json") ]] || conclude' EXIT
     play_experiment
     exit

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Runs tests again and again: what fails once in twenty runs is found by no single one.
+# Runs tests repeatedly, to find tests that fail only once in twenty runs.
 set -euo pipefail
 
 usage="usage: scripts/repeat_tests.sh --out DIR [--runs N] [--label REGEX] [--as USER]

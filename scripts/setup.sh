@@ -32,14 +32,13 @@ program_packages=(bind9-dnsutils bsdutils curl iperf iperf3 iputils-ping mosh ng
 # Of prometheus only promtool is used.
 web_packages=(chromium prometheus tshark)
 command -v node >/dev/null && command -v npm >/dev/null || web_packages+=(nodejs npm)
-# What runs the shards of a plan, and a cluster of one node.
+# Programs that run the shards of a plan, and a cluster of one node.
 fleet_packages=(munge openssh-client openssh-server parallel procps rsync slurm-wlm)
 
 package_packages=(binutils debootstrap dpkg-dev gzip libudev-dev lintian python3-pip
     python3-setuptools python3-wheel scdoc systemd)
 
-# What makes images of the Dockerfiles and plays the compose file, and the shells whose completions
-# are tried.
+# Programs that build the images and play the compose file, and the shells with completions.
 ship_packages=(buildah fish iproute2 jq mmdebstrap python3-yaml zsh)
 
 if [[ ${1-} == --only ]]; then

@@ -37,7 +37,7 @@ cd "$directory"
 mkdir -p shards
 find_missing
 if ((${#missing[@]} > 0)); then
-    # A program that is replaced while it runs must not be written to.
+    # A running program must be replaced, not written to.
     rm -f hapnet-lab && cp "$lab" hapnet-lab
     threads=()
     ((jobs == 1)) || threads=(--jobs 1)

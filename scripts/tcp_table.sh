@@ -62,7 +62,7 @@ trap 'echo "tcp_table: interrupted" >&2; exit 130' INT TERM
 
 laws=(cubic)
 available=$(cat /proc/sys/net/ipv4/tcp_available_congestion_control)
-# Another user than root may only take what is allowed.
+# Users other than root may only select allowed algorithms.
 ((EUID == 0)) || available=$(cat /proc/sys/net/ipv4/tcp_allowed_congestion_control)
 if [[ " $available " == *' bbr '* ]]; then
     laws+=(bbr)

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs the tests: docs/design/tests.md says what there is.
+# Installs what is missing, builds, and runs the tests. docs/design/tests.md lists the tests.
 set -euo pipefail
 
 usage="usage: scripts/test.sh [--all | KIND]
@@ -57,7 +57,7 @@ ship) scripts/setup.sh --package --ship ;;
 fleet) scripts/setup.sh --test --fleet ;;
 esac
 release=build/release
-# By default the tests with the label all are left out, and what only they need is not built.
+# By default, tests with the label all are left out, and the programs that only they need.
 left_out=all programs=end_to_end rest=default_tests
 [[ -z $all ]] || left_out=none programs=end_to_end_all rest=all
 logs=build/test-logs
@@ -68,7 +68,7 @@ summary=()
 runs=() # the steps in which tests ran
 failed=0
 
-# step NAME COMMAND...: runs the command, shows and keeps what it says, and notes how it went.
+# step NAME COMMAND...: runs the command, shows and keeps its output, and notes its result.
 step() {
     local name=$1 begin=$SECONDS verdict=ok
     shift
@@ -79,7 +79,7 @@ step() {
     [[ $verdict == ok ]]
 }
 
-# begin "COMMAND..." NAME FUNCTION: runs the function by that command beside what follows.
+# begin "COMMAND..." NAME FUNCTION: runs the function in the background, by that command.
 declare -A running=()
 begin() {
     local command
@@ -90,10 +90,10 @@ begin() {
     "${command[@]}" bash -euo pipefail -c "$3" >"$logs/$2.begun.log" 2>&1 &
     running[$2]=$!
 }
-# The lowest priority there is: tests wait for much of their time.
+# The lowest priority of all: tests wait for much of their time.
 idle="chrt --idle 0"
 
-# finish NAME: waits for what begin() began, and is the step of it.
+# finish NAME: waits for the end of what begin() began, and reports it as a step.
 finish() {
     begun_exit=0
     wait "${running[$1]}" || begun_exit=$?
@@ -106,7 +106,7 @@ show_begun() {
     [[ $begun_exit == 0 ]]
 }
 
-# run_tests NAME FOLDER OPTION...: the tests of that folder. Keeps what each of them said.
+# run_tests NAME FOLDER OPTION...: runs the tests of that folder. Keeps the output of each.
 run_tests() {
     local code=0
     ctest --test-dir "$2" --output-on-failure --no-tests=error "${@:3}" || code=$?
@@ -114,7 +114,7 @@ run_tests() {
     echo "$2" >"$logs/$1.folder"
     return "$code"
 }
-# test_step NAME FOLDER OPTION...: the step of them.
+# test_step NAME FOLDER OPTION...: runs them as a step.
 test_step() {
     runs+=("$1")
     step "$1" run_tests "$@"
@@ -130,7 +130,7 @@ check_scripts() {
         xargs -0 -P "$(nproc)" -n 8 shellcheck
 }
 
-# Whether the scripts of our pages parse, where there is a node to say so.
+# Checks that the scripts of our pages parse, where there is a node for it.
 check_pages() {
     ! command -v node >/dev/null || find lab web/page tests/web -name node_modules -prune -o \
         -name '*.*js' -type f -print0 | xargs -0 -P "$(nproc)" -n 1 node --check
@@ -139,7 +139,7 @@ check_pages() {
 build() {
     cmake --preset "$1" && cmake --build --preset "$1" --parallel "$(nproc)" --target "${@:2}"
 }
-# With a list of all tests: two runs at a time must not both write it.
+# With a list of all tests: two parallel runs must not both write it.
 build_release() {
     ninja -C "$release" "$rest" && ctest --test-dir "$release" --show-only
 }
@@ -147,15 +147,15 @@ build_asan() { cmake --preset asan && cmake --build --preset asan --parallel "$(
 # Reads all but the tests, and compiles nothing: cmake/HapnetTidy.cmake says how.
 check_tidy() { cmake --preset tidy && cmake --build --preset tidy --parallel "$(nproc)"; }
 
-# All that does not wait.
+# Runs all tests that do not wait.
 run_release_tests() {
     run_tests release-tests "$release" --parallel "$(nproc)" \
         --label-exclude "^(e2e|conformance|$left_out)\$"
 }
 
 # The tests end to end wait for most of their time, so all but the programs that they start is built
-# beside them. ctest reads their folder alone: in the others there may be half a program then. The
-# other tests wait for nothing but those of the devices, and run beside them.
+# beside them. ctest reads their folder alone, because programs of other folders may be incomplete.
+# The other tests run beside them, and only those of devices wait.
 test_release() {
     step "release-programs" build release "$programs" || return
     begin "$idle" release-build build_release
@@ -177,7 +177,7 @@ test_long() {
     test_kinds || true
 }
 
-# Clang's build: so the tests also see whether another compiler gives other bits.
+# Clang's build also shows whether another compiler gives other bits.
 test_sanitizers() {
     [[ -n ${running[asan-build]-} ]] || begin "nice" asan-build build_asan
     finish asan-build || return
@@ -210,7 +210,7 @@ test_web() {
         "$@"
 }
 
-# Each kind, as far as it can be tried in seconds with what is built.
+# Tries each kind in seconds, with the programs already built.
 test_kinds() {
     runs+=(programs-smoke)
     step "programs-smoke" test_programs smoke || true
@@ -271,7 +271,7 @@ skips() {
 
 # second_turn RUN...: the tests that were skipped because the machine was never quiet run once more,
 # one at a time, now that nothing of ours runs beside them. Where there are more than ten, something
-# else keeps the machine busy, and they stay skipped. What the second turn says counts.
+# else keeps the machine busy, and they stay skipped. The result of the second turn counts.
 second_turn_max=10
 second_turn() {
     local run names count
@@ -311,7 +311,7 @@ last_words() {
         END { close_test() }' "$logs/$1.log"
 }
 
-# closing RUN...: how the tests of each ended, and which failed.
+# closing RUN...: prints how the tests of each run ended, and which failed.
 closing() {
     local run
     for run in "$@"; do

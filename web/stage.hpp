@@ -48,7 +48,7 @@ public:
     [[nodiscard]] base::Result<void> start(const Choice& choice);
     void restart(const Choice& choice);
     void stop();
-    /// Sets if the stage loops. Nothing else changes.
+    /// Sets whether the stage loops. Nothing else changes.
     void set_loop(bool loops);
 
     /// Call it regularly.

@@ -25,7 +25,7 @@ base::Result<void> AllPaths::apply(const Paths::CommandFor& command,
     for (Paths* part : parts_) part->count_from(generation());
     auto done = parts_.front()->apply(command, mentioned, now, by);
     if (!done) return done;
-    // The other parts decide and refuse alike.
+    // The other parts decide in the same way.
     for (Paths* part : std::span{parts_}.subspan(1)) {
         base::ensure(part->apply(command, mentioned, now, by).has_value());
     }

@@ -388,8 +388,8 @@ void Link::note_drop(DropCause cause, base::TimePoint at)
 
 void Link::share(std::shared_ptr<const Conditions> conditions, base::TimePoint now)
 {
-    // A change has the time of the last arrival on either side, so it may be later than an arrival
-    // here that comes after it.
+    // A change is stamped with the latest arrival of both directions. So it may be later than the
+    // next arrival in this direction.
     const auto at = std::max(now, last_arrival_);
     advance(at);
     const bool are_new = conditions->regimes != conditions_->regimes;

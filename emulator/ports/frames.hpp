@@ -64,7 +64,7 @@ public:
         std::uint64_t not_ip = 0;
         std::uint64_t oversized = 0;        // longer than the MTU: merged by an interface
         std::uint64_t lost_undisturbed = 0; // undisturbed frames that could not be sent
-        std::uint64_t told_too_big = 0;     // answers sent to it about packets too big
+        std::uint64_t told_too_big = 0;     // "too big" answers sent to this end
     };
 
     /// Two ends and the path between them.

@@ -93,11 +93,11 @@ constexpr auto fields_of(base::Tag<Replayed>)
 
 /// Replays one peer on the cores that the daemon runs. The recorded messages arrive in the ticks
 /// that took them, and the recorded hand moves as it did, whatever force it is given. Another
-/// algorithm than the recorded one shows the forces that it would have made of the same messages,
-/// but the hand moves as it did with the recorded one. Fails when ticks of the record are missing
-/// or out of order, or when its configuration is incomplete; the error says which. Rows have no
-/// checksum. If the same forces come out again, both the recorded forces and their inputs are
-/// intact.
+/// algorithm than the recorded one shows the forces that it would have computed from the same
+/// messages, but the hand moves as it did with the recorded one. Fails when ticks of the record are
+/// missing or out of order, or when its configuration is incomplete; the error says which. Rows
+/// have no checksum. If the same forces come out again, both the recorded forces and their inputs
+/// are intact.
 [[nodiscard]] base::Result<Replayed> replay(const record::Record& record,
                                             const std::optional<peer::Algorithm>& instead);
 

@@ -190,7 +190,7 @@ class Daemon:
             self.stop()
         except ProgramFailed:
             if kind is None:
-                raise  # else what went wrong first is what the user wants to read
+                raise  # otherwise the user needs the first error
 
     # What it says
 

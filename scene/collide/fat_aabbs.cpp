@@ -20,9 +20,9 @@ constexpr double look_ahead_ticks = 32.0;
 // The distance by which a body strays from its path, or its corners by rotation, in mean half
 // edges.
 constexpr double wander_share = 0.1;
-// The limit to which a path stretches a box: this times a body's mean edge in length, and the cube
-// of that in volume. So a box may be long along one axis but less across several, where it would
-// meet many others.
+// The greatest size of a stretched box: its length in mean edges of the body, and its volume in
+// cubes of that edge. So a box may be long along one axis, but is shorter along several, where it
+// would meet many others.
 constexpr double stretch_max = 9.0;
 constexpr double shorter = 0.75;
 // The least number of ticks for which a box lasts, even if it then exceeds that limit.

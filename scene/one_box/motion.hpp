@@ -202,7 +202,7 @@ struct BoxMotion {
 
     double time_left = 0.0;  // of the tick, s
     bool is_exact = true;    // exact up to rounding, as is every tick without slanted springs,
-                             // grips and crowds of events
+                             // grips or many events
     bool is_coupled = false; // a slanted spring presses
     bool is_on_plane;        // the box is on a plane whose drag acts
     PerAxis position;

@@ -258,7 +258,7 @@ void set_centripetal_velocity(ContactBlock& block, const glm::dvec3& spin_a,
         return tick * tick * glm::dot(spin, spin) <= hardly * hardly;
     };
     block.turns = !hardly_turns(spin_a) || !hardly_turns(spin_b);
-    if (!block.turns) return; // standing still meets all least speeds
+    if (!block.turns) return; // without rotation the velocity is zero
     const auto add = [&](const glm::dvec3& spin, const glm::dvec3& arm, double share) {
         // For a body that rotates far in a tick this term alone is wrong, so it fades out.
         constexpr double far = 0.1; // radians

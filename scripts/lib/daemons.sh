@@ -6,15 +6,15 @@
 # To be sourced after scripts/lib/session.sh, by a script that has set out (a folder) and task.
 # shellcheck disable=SC2154 # program, remotes
 
-# Of the round that plays.
+# Folder of the current round.
 round_folder=
-round_runs=()     # by id: how often it was started
+round_runs=()     # by id: number of starts
 round_processes=() # by id
-kills_so_far=0    # in all rounds: whose turn it is
-# Peers come back to the place where they were; another soak beside this one has other addresses.
+kills_so_far=0    # kills in all rounds; chooses the next peer
+# Peers return to the same address. Another soak on this machine has other addresses.
 loopback=127.$((1 + RANDOM % 250)).$((1 + RANDOM % 250))
 
-# start_daemon ID: a run of its own, with a record of its own.
+# start_daemon ID: starts a new run of a peer, with its own record.
 start_daemon() {
     local id=$1 run=$((${round_runs[$1]:-0} + 1))
     round_runs[id]=$run
@@ -27,7 +27,7 @@ start_daemon() {
     children=("$emulator" "${round_processes[@]}")
 }
 
-# await_words ID WORDS: until that peer has said them, 30 s at most.
+# await_words ID WORDS: waits until that peer has printed them, 30 s at most.
 await_words() {
     local log=$round_folder/peer-$1.${round_runs[$1]}.log
     for _ in {1..600}; do
@@ -38,7 +38,7 @@ await_words() {
     fail "peer $1 did not say '$2':" "$log"
 }
 
-# kill_one AWAY: kills the one whose turn it is on the spot, and starts it again so much later.
+# kill_one AWAY: kills the next peer in turn at once, and restarts it after AWAY.
 kill_one() {
     local id=$((kills_so_far % peers + 1))
     kills_so_far=$((kills_so_far + 1))
@@ -48,7 +48,7 @@ kill_one() {
     start_daemon "$id"
 }
 
-# play_round AWAY WHEN...: one session, in which one is killed so many seconds after the start.
+# play_round AWAY WHEN...: plays one session, and kills a peer at each time WHEN after the start.
 play_round() {
     local away=$1 when id code started
     round_runs=() round_processes=()
@@ -78,7 +78,7 @@ judge_round() {
         "$bin/soak_daemons" round "$round_folder" "$peers" "$1"
 }
 
-# soak_daemons ROUNDS AWAY WHEN...: so many rounds through one emulator. Fails when one was broken.
+# soak_daemons ROUNDS AWAY WHEN...: plays the rounds through one emulator. Fails if one broke.
 soak_daemons() {
     local rounds=$1 round verdict=0
     trap 'echo "$program: interrupted; the table so far and the records are in $out" >&2
@@ -93,7 +93,7 @@ soak_daemons() {
         mkdir -p "$round_folder"
         play_round "${@:2}"
         if { printf '%5d' "$round" && judge_round $(($# - 2)); } >"$out/row.txt"; then
-            # What went well needs no more than the statistics; five records grow by 5 MB a second.
+            # A passed round keeps only its statistics: five records grow by 5 MB a second.
             ((round == rounds)) || rm -f "$round_folder"/*.rec
         else
             verdict=1

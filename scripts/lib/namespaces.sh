@@ -8,7 +8,7 @@
 
 namespaces=()
 
-# use_namespaces: makes them, and what is played from then on is played in them. Says why it cannot.
+# use_namespaces: makes the namespaces, and plays all further sessions in them. Says why it cannot.
 use_namespaces() {
     if ((EUID != 0)); then
         echo "${program:?}: network namespaces need root" >&2

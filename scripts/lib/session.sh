@@ -2,14 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Sessions through the emulator, for the scripts that play some. To be sourced by a
-# script that has set program (its name, for messages) and bin (the folder of the programs). Whatever
-# ends the script, its sessions end too.
+# Sessions through the emulator, for scripts that play sessions. To be sourced by a script that has
+# set program (its name, for messages) and bin (the folder of the programs). Whatever ends the
+# script, its sessions end too.
 
 children=()
 
-# Where the programs run: in the network namespaces $namespace-1, -emulator and -2, which
-# scripts/lib/namespaces.sh makes; empty: on loopback.
+# Network namespaces of the programs: $namespace-1, -emulator and -2, made by
+# scripts/lib/namespaces.sh; empty: on loopback.
 namespace=
 
 # with_script COMMAND...: becomes the command, which gets SIGTERM when the script has ended,
@@ -18,14 +18,14 @@ with_script() {
     exec setpriv --pdeathsig TERM "$@"
 }
 
-# within 1|2|emulator COMMAND...: the same, where that peer or the emulator runs.
+# within 1|2|emulator COMMAND...: as with_script, in the namespace of that peer or the emulator.
 within() {
     local namespace_words=()
     [[ -z $namespace ]] || namespace_words=(ip netns exec "$namespace-$1")
     with_script "${namespace_words[@]}" "${@:2}"
 }
 
-# socket_of 1|2|a|b: where that peer, or the emulator on that side, listens.
+# socket_of 1|2|a|b: the address where that peer, or the emulator on that side, listens.
 socket_of() {
     [[ -n $namespace ]] || set -- loopback
     case $1 in
@@ -44,14 +44,14 @@ stop_children() {
     children=()
 }
 
-# complain WHY [LOG...]: says why and what the logs end with.
+# complain WHY [LOG...]: prints the reason and the last lines of the logs.
 complain() {
     printf '\n%s: %s\n' "${program:?}" "$1" >&2
     shift
     (($# == 0)) || tail -n 20 "$@" >&2 || true
 }
 
-# fail WHY [LOG...]: the same, and ends the script.
+# fail WHY [LOG...]: complains, and ends the script.
 fail() {
     complain "$@"
     exit 1
@@ -80,7 +80,7 @@ await_ready() {
 # By the id of each peer of the session: the options that name its remotes.
 remotes=()
 
-# start_emulator FOLDER OPTION...: between peers 1 and 2. Sets emulator and remotes.
+# start_emulator FOLDER OPTION...: starts one between peers 1 and 2. Sets emulator and remotes.
 start_emulator() {
     local folder=$1 ready=
     within emulator "${bin:?}/hapnet-emulator" --listen-a "$(socket_of a)" \
@@ -93,7 +93,7 @@ start_emulator() {
     remotes=([1]="--remote ${BASH_REMATCH[1]}" [2]="--remote ${BASH_REMATCH[2]}")
 }
 
-# start_links FOLDER PEERS OPTION...: the same with a link for every two of PEERS peers.
+# start_links FOLDER PEERS OPTION...: like start_emulator, with a link for every two of PEERS peers.
 start_links() {
     local folder=$1 peers=$2 links=() ready='' i j word
     for ((i = 1; i < peers; i++)); do
@@ -116,8 +116,7 @@ start_links() {
     done
 }
 
-# What a session may have of its own: the seed of the hands, and the files of the operators by the
-# id of the peer; without one it is the default.
+# Optional settings of a session: the seed of the hands, and the operator files by the peer's id.
 hands_seed=1
 declare -A operators=()
 
@@ -131,8 +130,8 @@ peer() {
         ${remotes[$1]} "${@:4}" >"$3/peer-$1.out"
 }
 
-# wait_for_peers FOLDER EMULATOR PEER...: until all of them have ended, and ends the emulator then.
-# Fails when one fails, or the emulator ends before.
+# wait_for_peers FOLDER EMULATOR PEER...: waits until all peers have ended, then ends the emulator.
+# Fails when a peer fails, or the emulator ends before.
 wait_for_peers() {
     local folder=$1 emulator=$2 awaited=("${@:3}") ended left one
     children=("${@:2}")
@@ -150,8 +149,8 @@ wait_for_peers() {
     stop_children
 }
 
-# play_session FOLDER SECONDS PEER-OPTION...: a session through the started emulator, which then
-# ends too. What peer 1 says is shown. Fails when a program fails.
+# play_session FOLDER SECONDS PEER-OPTION...: plays a session through the started emulator, which
+# then ends too. Shows the output of peer 1. Fails when a program fails.
 play_session() {
     local folder=$1 seconds=$2 id running=()
     for id in "${!remotes[@]}"; do
@@ -165,7 +164,7 @@ play_session() {
     wait_for_peers "$folder" "$emulator" "${running[@]}"
 }
 
-# analyse FOLDER: metrics of the records in it.
+# analyse FOLDER: prints metrics of the records in it.
 analyse() {
     "$bin/hapnet-lab" analyse "$1"/peer-[1-8].rec --json >"$1/analysis.json"
 }

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The Python module as a wheel, for scripts/package.sh and the test of it. To be sourced.
+# Makes the wheel of the Python module, for scripts/package.sh and the wheel's test. To be sourced.
 
 # make_wheel REPOSITORY DIR: leaves DIR/hapnet-VERSION-py3-none-any.whl. Debian's Python makes it
 # without a network, of a copy in DIR/python, because setuptools writes beside its sources.

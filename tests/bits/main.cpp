@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Prints the hash of every play after 20 s, with and without snapshots on the way; two lines that
-// differ in nothing but the compiler they come from are a fault.
+// Prints the hash of every play after 20 s, with and without snapshots on the way. If the same line
+// differs between two compilers, that is a fault.
 #include "tests/bits/plays.hpp"
 
 #include <cinttypes>

@@ -31,7 +31,7 @@ scene::World world_of(const Play& play)
     return *std::move(world);
 }
 
-/// Where a hand on a circle is at a tick.
+/// The place of a hand on a circle at a tick.
 scene::HandInput on_circle(double radius, double period_s, std::uint64_t tick)
 {
     const double turn = base::two_pi * static_cast<double>(tick) * 1e-3 / period_s;

@@ -17,10 +17,10 @@ struct Play {
 
 [[nodiscard]] std::span<const Play> plays();
 
-/// The state's hash after so many ticks of 1 ms.
+/// Returns the state's hash after this number of ticks of 1 ms.
 [[nodiscard]] std::uint64_t hash_after(const Play& play, std::uint64_t ticks);
 
-/// The same, but every `every` ticks the state is carried over into another world by a snapshot.
+/// As hash_after(), but every `every` ticks a snapshot carries the state over into another world.
 [[nodiscard]] std::uint64_t hash_over_snapshots(const Play& play, std::uint64_t ticks,
                                                 std::uint64_t every);
 

@@ -9,7 +9,7 @@
 
 namespace hapnet::conformance {
 
-/// What of the suite applies to a backend; the suite skips the rest by name.
+/// The parts of the suite that apply to a backend. The suite skips the others by name.
 struct Traits {
     bool has_motors = true;
     bool calibrates = false; // positions mean nothing until a person has helped
@@ -30,7 +30,7 @@ struct Command {
     bool motors_on = false;
 };
 
-/// A backend, and the double that stands in for its device: what the suite needs of them.
+/// A backend with the double of its device, as the suite needs them.
 class Subject {
 public:
     Subject() = default;
@@ -39,14 +39,14 @@ public:
     Subject& operator=(const Subject&) = delete;
 
     [[nodiscard]] virtual Traits traits() const = 0;
-    /// As the daemon opens it, by the backend's own way.
+    /// Opens the device by the backend's own function, as the daemon does.
     [[nodiscard]] virtual device::Opened<std::unique_ptr<device::Device>> open() = 0;
 
-    /// The time to give to the device, and its passing: virtual where the double allows it.
+    /// The device's time, virtual where the double allows that, and a function that lets it pass.
     [[nodiscard]] virtual base::TimePoint now() = 0;
     virtual void pass(base::Duration duration) = 0;
 
-    // Fate. Each is asked for only where the traits allow it.
+    // Events of the device. The suite calls each only where the traits allow it.
     virtual void help_calibrate() {} // the person does what the calibration asks for
     virtual void dock(bool /*in*/) {}
     virtual void press(bool /*down*/) {} // the primary button
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] virtual std::vector<Command> commands() const = 0;
 };
 
-/// One per program of the suite: each backend's test links its own.
+/// Makes the subject. Each backend's test program defines its own.
 [[nodiscard]] std::unique_ptr<Subject> make_subject();
 
 } // namespace hapnet::conformance

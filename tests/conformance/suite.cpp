@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What holds for every device, whichever it is.
+// Requirements on every device.
 #include "device/rig.hpp"
 #include "tests/conformance/subject.hpp"
 
@@ -31,7 +31,7 @@ protected:
         rig_.emplace(*std::move(opened), device::GovernorLimits{});
     }
 
-    /// Opens it and goes through its calibration, with a person's help.
+    /// Opens the device and calibrates it with a person's help.
     void open_calibrated()
     {
         ASSERT_NO_FATAL_FAILURE(open());
@@ -39,8 +39,8 @@ protected:
         if (subject_->traits().calibrates) subject_->help_calibrate();
         EXPECT_TRUE(play_until([&] { return sample().calibrated; }, {}));
         if (subject_->traits().docks) subject_->dock(false);
-        // Whoever takes the stylus out of its holder, or has moved the joints to every stop just
-        // now, needs a while to where it works.
+        // A person who takes the stylus out of its holder, or has moved the joints to their stops,
+        // needs a while to reach the workspace.
         EXPECT_TRUE(play_until([&] { return !sample().docked && is_inside(); }, {}));
     }
     [[nodiscard]] bool is_inside() const
@@ -73,7 +73,7 @@ protected:
         return condition();
     }
 
-    /// Whether the double has been told any force since its command number `first`.
+    /// True if the double has received a force since its command number `first`.
     [[nodiscard]] bool was_pushed_since(std::size_t first) const
     {
         const auto commands = subject_->commands();
@@ -133,11 +133,11 @@ TEST_F(Device, PushesAsSoonAsItMayAndRampsIn)
     SKIP_UNLESS(traits().has_motors);
     open_calibrated();
     const std::size_t first = subject().commands().size();
-    // A newton, or as much as it has. The whole ramp is the governor's own test: on a busy machine
-    // a late tick begins it again.
+    // One newton, or the device's largest force. The whole ramp is the governor's own test: on a
+    // busy machine a late tick begins it again.
     const double wanted = std::min(1.0, rig_->device().capabilities().force_max_n);
     EXPECT_TRUE(play_until([&] { return felt_.x() > 0.3 * wanted; }, along_x, 30s));
-    play_for(5ms, along_x); // what was said last may still be on its way
+    play_for(5ms, along_x); // the last command may still be on its way
     EXPECT_TRUE(was_pushed_since(first));
     EXPECT_TRUE(subject().commands().back().motors_on);
     EXPECT_LE(felt_.x(), wanted);
@@ -224,13 +224,13 @@ TEST_F(Device, ThatFallsSilentIsNoticedAndToldZeroWhenItListensAgain)
     EXPECT_TRUE(play_until([&] { return sample().fault == device::Fault::timeout; }, along_x, 1s));
     EXPECT_EQ(felt_, base::Force{});
     if (!traits().has_motors) return;
-    play_for(200ms, along_x); // after a hiccup it may push again, after this only when told so
+    play_for(200ms, along_x); // after a short stall it may push again, otherwise only on a command
     const std::size_t first = subject().commands().size();
     subject().stall(false);
     play_for(100ms, along_x);
     EXPECT_TRUE(last_is_zero());
     const auto commands = subject().commands();
-    // What was on its way when it fell silent may still arrive, but nothing after it.
+    // Commands on their way when it fell silent may still arrive, but no later ones.
     const std::size_t on_the_way = std::min(first + 2, commands.size());
     EXPECT_FALSE(was_pushed_since(on_the_way));
 }

@@ -15,8 +15,8 @@ count() {
     sed -n 's/^summary: //p' "$folder/out"
 }
 
-# each FROM TO PROGRAM [ARGUMENT ...]: the instructions of each of what its last argument counts,
-# from the first number to the second: start and end cancel.
+# each FROM TO PROGRAM [ARGUMENT ...]: the instructions per unit of the last argument, from the
+# difference of the runs with FROM and TO, in which start and end cancel.
 each() {
     local short long
     short=$(count "${@:3}" "$1")

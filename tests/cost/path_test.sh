@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# A datagram takes no more than MOST instructions in the emulator's core, if that is not 0, as long
-# as nobody watches; what a watch adds is said.
+# A datagram takes no more than MOST instructions in the emulator's core, if that is not 0, without
+# a watch. Prints the cost of a watch.
 # VALGRIND SPIN_PATH MOST
 set -euo pipefail
 valgrind=$1 spin=$2 most=$3

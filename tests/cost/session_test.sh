@@ -10,7 +10,7 @@ valgrind=$1 program=$2 algorithm=$3 players=$4 most=$5
 # shellcheck source=tests/cost/count_lib.sh
 . "$(dirname "${BASH_SOURCE[0]}")/count_lib.sh"
 
-# Between 8 s and 16 s all is hands on.
+# Both hands are on from 8 s to 16 s.
 second=$(each 8 16 "$program" "$algorithm" "$players")
 tick=$((second / (1000 * players)))
 echo "$algorithm, $players players: $tick instructions a tick of a player"

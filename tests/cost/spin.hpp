@@ -8,10 +8,10 @@
 
 namespace hapnet::cost {
 
-// What both programs do, so that they differ in nothing but what was compiled into them: two hands
-// press a cube from both sides, one of them a little deeper, so that it slides away between them.
+// The work of both programs, which differ only in the code compiled into them: two hands press a
+// cube from both sides, one of them a little deeper, so that it slides away between them.
 
-/// A scene that needs just the profile of that name.
+/// Returns a scene that needs just the profile of that name.
 [[nodiscard]] inline scene::Description scene_for(std::string_view kind)
 {
     scene::Description description = scene::paper_scene();

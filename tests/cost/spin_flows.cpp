@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // spin_flows FLOWS DATAGRAMS: frames with UDP datagrams, one a millisecond each way, through a path
-// of 160 ms with so many flows, in turn, without a socket. What they take besides those of a run
-// without flows is what flows cost.
+// of 160 ms with FLOWS flows, in turn, without a socket. Their additional instructions over those
+// of a run without flows are the cost of flows.
 #include "emulator/core/flow/packet_facts.hpp"
 #include "emulator/core/frame.hpp"
 #include "emulator/core/paths.hpp"
@@ -18,7 +18,7 @@ namespace {
 using namespace hapnet;
 using emulator::Direction;
 
-/// From port 40000 to `port`.
+/// A frame from port 40000 to `port`.
 std::array<std::byte, 178> frame_to(std::uint16_t port)
 {
     constexpr std::array<unsigned char, 42> head{
@@ -32,7 +32,7 @@ std::array<std::byte, 178> frame_to(std::uint16_t port)
     return frame;
 }
 
-/// As a port does it.
+/// Passes a datagram, as a port does.
 void pass(emulator::Paths& paths, emulator::EmulatedPath& path, Direction direction,
           std::span<const std::byte> bytes, base::TimePoint now)
 {

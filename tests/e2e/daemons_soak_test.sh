@@ -13,12 +13,12 @@ set -euo pipefail
 grep -q 'every datagram is in one counter: yes' "$out/soak/table.txt" || fail "the emulator's row"
 grep -Eq '^ +1 .* passed$' "$out/soak/table.txt" || fail "the row of the round"
 
-# Had two been killed, this record would show but one.
+# If two had been killed, this record would show only one.
 code=0
 "$programs/soak_daemons" round "$out/soak/round-1" 3 2 >"$out/said" || code=$?
 ((code == 1)) || fail "a kill that went unnoticed is not found: it exits $code"
 
-# As Ctrl-C does it: to all processes of a group.
+# As Ctrl-C does: sends it to all processes of a group.
 set -m
 "$script" daemons --minutes 1 --programs "$programs" --out "$out/interrupted" >"$out/said" 2>&1 &
 group=$!

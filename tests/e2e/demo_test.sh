@@ -27,7 +27,7 @@ for peers in 2 3; do
     "$script" --scene turning --peers "$peers" --duration 6 --programs "$programs" --out "$folder" \
         >"$out/said" 2>&1 || code=$?
     cat "$out/said"
-    # A machine that is busy is said to be, and leaves results all the same.
+    # The demo reports a busy machine, and leaves results all the same.
     ((code <= 1)) || fail "the demo of $peers hands exits $code"
     is_valid=true
     if ((code == 1)); then

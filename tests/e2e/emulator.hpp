@@ -22,7 +22,7 @@ public:
     explicit Emulator(const std::vector<std::string>& options,
                       std::string_view host = "127.0.0.1:0");
 
-    /// Where A and B send to.
+    /// The addresses to which A and B send.
     [[nodiscard]] const net::Endpoint& a() const { return *a_; }
     [[nodiscard]] const net::Endpoint& b() const { return *b_; }
 
@@ -40,10 +40,10 @@ private:
     std::optional<net::Endpoint> b_;
 };
 
-/// What a program says on its control socket to a client that sends `text` and no more: a line, or
-/// what came until the connection was closed.
+/// Returns the answer on a program's control socket to a client that sends `text`: a line, or all
+/// that came until the connection was closed.
 [[nodiscard]] std::string said_by(const std::string& socket, std::string_view text);
-/// The same of what a client has sent; nothing after 5 s of silence.
+/// Returns the answer to a client's earlier text; nothing after 5 s of silence.
 [[nodiscard]] std::string heard(net::UnixStream& stream);
 
 /// Expects received + duplicated = delivered + dropped + in_flight in one direction's statistics.

@@ -166,7 +166,7 @@ TEST_F(EmulatorBetween, EndsAsCommandAEndsAndEndsB)
     const auto begin = std::chrono::steady_clock::now();
     EXPECT_EQ(run_between({}, "exit 7", {"sleep", "infinity"}).exit, 7);
     EXPECT_EQ(run_between({}, "kill -KILL $$", {"sleep", "infinity"}).exit, 128 + SIGKILL);
-    // One that does not heed SIGTERM, and its child, too.
+    // One command does not heed SIGTERM, and neither does its child.
     EXPECT_EQ(run_between({}, "true", {"sh", "-c", "trap '' TERM; sleep 1000 & wait; wait"}).exit,
               0);
     EXPECT_LT(std::chrono::steady_clock::now() - begin, 55s);
@@ -220,8 +220,8 @@ TEST_F(EmulatorBetween, LosesTheSamePacketsAsEverForASeed)
     EXPECT_EQ(first, second);
 }
 
-/// What a sender of 100 datagrams of 1000 bytes, one a millisecond, hears of the marks with which
-/// they arrived behind 1 Mbit/s, and what the emulator counted.
+/// The result for a sender of 100 datagrams of 1000 bytes, one per millisecond, behind 1 Mbit/s:
+/// the marks with which they arrived, and the emulator's counts.
 struct Marks {
     int not_ect = 0;
     int ect1 = 0;

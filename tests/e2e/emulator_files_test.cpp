@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Which files a client of the control socket can have an emulator read.
+// The files that a client of the control socket can make an emulator read.
 #include "tests/e2e/emulator.hpp"
 
 #include <filesystem>
@@ -62,7 +62,7 @@ TEST_F(ClientsFiles, AreNotThoseOfTheEmulator)
     const auto refused = ctl({"apply", profile});
     EXPECT_EQ(refused.exit, 2);
     EXPECT_NE(refused.err.find("'missing.csv' was not sent"), std::string::npos) << refused.err;
-    // What exists nowhere and what every system has are told apart by nothing.
+    // The answer must not show whether a file exists.
     for (const std::string name : {"/etc/passwd", "/etc/shadow", "/nowhere"}) {
         const auto reply = said_by(socket, "{\"command\":\"apply\",\"profile\":\"up.delay = { "
                                            "law = \\\"trace\\\", file = \\\"" +

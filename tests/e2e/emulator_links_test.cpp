@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 using emulator::FatesOfPaths;
 using emulator::parse_fates_of_paths;
 
-/// An emulator with links of these names, each between two hosts.
+/// An emulator with links of these names, and two hosts for each link.
 class LinksRunning {
 public:
     struct Pair {
@@ -53,7 +53,7 @@ public:
         }
     }
 
-    /// Both sides are known afterwards: one datagram each way, the first one the lower.
+    /// Sends one datagram each way, the lower host first, so that the emulator knows both sides.
     void introduce()
     {
         for (auto& [name, pair] : pairs) {
@@ -89,7 +89,7 @@ public:
     std::map<std::string, Pair> pairs;
 };
 
-/// So many each way through every link.
+/// Sends `count` datagrams each way through every link.
 void stream_through(LinksRunning& emulator, std::uint64_t count)
 {
     for (std::uint64_t n = 0; n < count; ++n) {
@@ -200,7 +200,7 @@ TEST(EmulatorLinks, HaveTheSameFatesInTheSameOrderHoweverManyThreadsRelayThem)
     const auto alone = fates_with("1");
     EXPECT_EQ(fates_with("2"), alone);
     EXPECT_EQ(fates_with("4"), alone);
-    EXPECT_EQ(fates_with("16"), alone); // of which four have a link
+    EXPECT_EQ(fates_with("16"), alone); // four of these paths have a link
 }
 
 TEST(EmulatorLinks, OnSeveralThreadsChangeAsOne)

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What IP headers say passes the emulator as it passes a wire: TOS or traffic class, and TTL or hop
-// limit.
+// The fields of IP headers pass the emulator unchanged: TOS or traffic class, and TTL or hop limit.
 #include "proto/net/clock.hpp"
 #include "proto/net/udp_socket.hpp"
 #include "proto/net/wait.hpp"
@@ -25,7 +24,7 @@ namespace {
 using namespace std::chrono_literals;
 using base::IpMarks;
 
-/// A program that sets the marks of what it sends by the options of its socket, as any would.
+/// A program that sets the marks of its datagrams by socket options, as any program would.
 class MarkingHost {
 public:
     explicit MarkingHost(const std::string& local) : socket_{endpoint_of(local), net::Load::bulk} {}
@@ -40,7 +39,7 @@ public:
         EXPECT_EQ(socket_.send(to, std::array<std::byte, 100>{}), net::SendOutcome::sent);
     }
 
-    /// The marks of the next `count` datagrams, and who sent the last.
+    /// Returns the marks of the next `count` datagrams, and the sender of the last.
     std::vector<IpMarks> receive(std::size_t count)
     {
         std::vector<IpMarks> marks;

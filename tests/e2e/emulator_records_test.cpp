@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the emulator writes of a run, and what it takes up again from it.
+// The files that the emulator writes in a run, and those that it reads again.
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/udp.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What gets through both ways of an emulator that writes its fates to `path`.
+/// The datagrams that get through, both ways, an emulator that writes its fates to `path`.
 struct Crossing {
     std::vector<std::uint64_t> up;
     std::vector<std::uint64_t> down;
@@ -70,7 +70,7 @@ TEST(EmulatorRecords, OnAFullDiskAreMissedOnceAndInTheSummaryAndTheRunGoesOn)
                               "/dev/full", "--duration", "1s", "--stats", "-"},
                              10s);
     EXPECT_EQ(outcome.exit, 3) << outcome.err;
-    // Its statistics all the same.
+    // The statistics are written all the same.
     const auto statistics = nlohmann::json::parse(outcome.out.substr(outcome.out.find('\n')));
     EXPECT_EQ(statistics["valid"], false);
     EXPECT_EQ(statistics["invalid_because"][0], "files: a file of this run could not be written");
@@ -101,7 +101,7 @@ TEST(EmulatorRecords, FatesThatAreEqualForEqualSeedsAndCanBeReplayed)
 TEST(EmulatorRecords, FatesThatAreTheSameWhateverElseIsSwitchedOn)
 {
     constexpr std::size_t all = 10;
-    constexpr std::size_t to_delay = 6; // what follows belongs to the stages after it
+    constexpr std::size_t to_delay = 6; // the columns after it belong to stages after the delay
     const TemporaryFolder folder;
     const std::vector<std::string> options{
         "--seed",   "7",

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the emulator does to datagrams on real sockets, in real time.
+// Effects of the emulator on datagrams on real sockets, in real time.
 #include "proto/base/random.hpp"
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/udp.hpp"
@@ -35,14 +35,14 @@ base::Duration median_delay(std::vector<Arrival> arrivals)
     return middle->delay;
 }
 
-/// Both hosts as the options that name them.
+/// Returns the options that name both hosts.
 std::vector<std::string> naming(const Host& a, const Host& b, std::vector<std::string> options)
 {
     options.insert(options.end(), {"--a", a.endpoint().to_text(), "--b", b.endpoint().to_text()});
     return options;
 }
 
-/// The numbers, of 0 to count-1, that get from A to B.
+/// Returns those of the numbers 0 to count-1 that get from A to B.
 std::vector<std::uint64_t> survivors(const std::vector<std::string>& options, std::uint64_t count)
 {
     Host a;
@@ -65,7 +65,7 @@ int times_in(const std::string& text, std::string_view words)
     return times;
 }
 
-/// Sends a datagram that names `from` as its sender; false where that is not allowed.
+/// Sends a datagram that names `from` as its sender. Returns false where that is not allowed.
 bool send_forged(const net::Endpoint& from, const net::Endpoint& to)
 {
     const int raw = socket(AF_INET, SOCK_RAW | SOCK_CLOEXEC, IPPROTO_UDP);
@@ -93,7 +93,7 @@ TEST(Emulator, ForwardsBothWaysAndDelaysEachByItsOwnDelay)
     EXPECT_NEAR(base::to_seconds(median_delay(a.arrivals())), 0.040, 0.001);
     const auto numbers = numbers_of(b.arrivals());
     EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
-    // Nothing early: but two kernel stamps were converted to the monotonic clock, each to 1 us.
+    // Never early, but for two kernel stamps converted to the monotonic clock, each to 1 us.
     for (const Arrival& arrival : b.arrivals()) EXPECT_GE(arrival.delay, 160ms - 2us);
 
     const auto statistics = emulator.stop();

@@ -28,7 +28,7 @@ class EchoServer {
 public:
     [[nodiscard]] std::string address() const { return socket_.local().to_text(); }
 
-    /// Until so many have come, or nothing for a while.
+    /// Answers until `count` datagrams have come, or none for a while.
     void answer(std::size_t count)
     {
         const auto end = net::monotonic_now() + 5s;
@@ -163,13 +163,13 @@ TEST(EmulatorUpstream, ChangesTheConditionsOfAllClientsOrOfOneAlsoBeforeItComes)
     const auto statistics = emulator.stop();
     EXPECT_EQ(statistics["clients"][0]["up"]["dropped"]["random_loss"], 1);
     EXPECT_EQ(statistics["generation"], 3);
-    // Of whoever comes next, and of each that is there.
+    // The conditions of future clients, and of each present client.
     EXPECT_EQ(statistics["configuration_at_end"]["down"]["delay"], "20ms");
     EXPECT_EQ(statistics["configuration_at_end"]["up"]["delay"], "5ms");
     const auto& second = statistics["clients"][1];
     EXPECT_EQ(second["name"], "client.2");
     EXPECT_EQ(second["configuration_at_end"]["up"]["delay"], "80ms");
-    EXPECT_TRUE(second["changes"].empty()); // it came after them
+    EXPECT_TRUE(second["changes"].empty()); // the client came after the changes
     EXPECT_EQ(statistics["clients"][0]["changes"][0]["settings"],
               (nlohmann::json{{"client.1.up.loss", "100%"}}));
 }
@@ -178,7 +178,7 @@ TEST(EmulatorUpstream, RecordsTheFatesOfEachClientAndReplaysThem)
 {
     TemporaryFolder folder;
     const auto fates_of = [&](std::vector<std::string> options, const char* name) {
-        EchoServer server; // which hears, but does not answer
+        EchoServer server; // receives, but does not answer
         options.insert(options.end(),
                        {"--fates", folder.file(name), "--pcap", folder.file("run.pcapng")});
         UpstreamRunning emulator{server, options};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the emulator says to the person, or the script, that starts it.
+// Messages of the emulator to the person or script that starts it.
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/no_network.hpp"
 #include "tests/e2e/udp.hpp"
@@ -97,7 +97,7 @@ TEST(EmulatorUsage, AnErrorOfAFileNamesTheOptionThatAskedForIt)
     }
     expect_refusal(run("hapnet-emulator", {"check", "/bin/sh"}), 2,
                    {"/bin/sh", "this is no text: it has the byte 0x7f", "TOML"});
-    // What is typed without an option is not said to have one.
+    // A message about a word without an option must not name an option.
     const auto checked = run("hapnet-emulator", {"check", "/no/such.toml"});
     expect_refusal(checked, 2, {"hapnet-emulator: cannot read /no/such.toml: No such file"});
 
@@ -150,7 +150,7 @@ TEST(EmulatorUsage, ChecksAndPredictsOneLinkOfAMesh)
     EXPECT_EQ(two["down"]["delay_ms"]["mean"], 60.0);
     const auto one = predicted({"--link", "1-3"});
     EXPECT_EQ(one["down"]["delay_ms"]["mean"], 50.0);
-    // Each link has draws of its own, as when it runs.
+    // Each link has its own draws, as in a run.
     EXPECT_NE(one["up"]["dropped"], two["up"]["dropped"]);
 
     const auto common = run("hapnet-emulator", {"predict", profile, "--packets", "1000"});

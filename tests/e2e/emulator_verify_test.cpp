@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// hapnet-emulator verify: what it says of a run, and how it ends.
+// The results and exit codes of hapnet-emulator verify.
 #include "tests/e2e/process.hpp"
 
 #include <fstream>
@@ -13,7 +13,7 @@ namespace hapnet::e2e {
 
 namespace {
 
-/// A folder with the fates of four datagrams: those of `lost` that are 1 were lost by the pattern.
+/// Writes a folder with four fates. The pattern lost the datagrams whose digit in `lost` is 1.
 void write_run(const TemporaryFolder& folder, const std::string& lost)
 {
     std::ofstream{folder.file("profile.toml")}

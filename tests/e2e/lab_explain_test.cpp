@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What hapnet-lab explain says of scenes, and of what is none.
+// The output of hapnet-lab explain about scenes, and about files that are no scenes.
 #include "tests/e2e/process.hpp"
 
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What hapnet-lab report makes of folders, and of what is none.
+// The output of hapnet-lab report about folders, and about arguments that are no folders.
 #include "proto/record/writer.hpp"
 #include "tests/e2e/process.hpp"
 #include "tests/support/page_data.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// hapnet-lab run: the same bytes whenever and however it is run, also after an interruption.
+// hapnet-lab run writes the same bytes however it is run, also after an interruption.
 #include "tests/e2e/process.hpp"
 
 #include <algorithm>

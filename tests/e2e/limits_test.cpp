@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the programs do where what they write finds no room: on a full disk (/dev/full), and beyond
-// the limit of a user (ulimit -f).
+// The programs when their output finds no room: on a full disk (/dev/full), and beyond the limit of
+// a user (ulimit -f).
 #include "tests/e2e/process.hpp"
 
 #include <array>
@@ -20,11 +20,11 @@ namespace {
 
 const std::string relays_briefly =
     "hapnet-emulator --listen-a 127.0.0.1:0 --listen-b 127.0.0.1:0 --duration 50ms";
-/// For a peer that does not come.
+/// Options for a peer whose partner does not come.
 const std::string waits_briefly =
     "timeout --preserve-status -s TERM 2 hapnet-peer --remote 127.0.0.1:9";
 
-/// What a command of a shell prints, and its exit code: 128 + n of signal n.
+/// The output of a shell command, and its exit code: 128 + n after signal n.
 struct Said {
     int exit = -1;
     std::string text;

@@ -28,7 +28,7 @@ bool write_to(const char* path, std::string_view text)
     return is_written;
 }
 
-/// Root may take a network of its own; others may as far as they are among themselves.
+/// Moves to a network namespace. Users other than root need a user namespace for that.
 bool leave_network()
 {
     const auto user = std::to_string(geteuid());

@@ -17,8 +17,8 @@
 
 namespace hapnet::e2e {
 
-/// "127.0.0.1:PORT" with a port that was free a moment ago: for programs that are to come back at
-/// the same place.
+/// Returns "127.0.0.1:PORT" with a port that was free a moment ago, for a program that returns
+/// there.
 [[nodiscard]] std::string free_place();
 
 /// A running hapnet-peer that writes a record and statistics.
@@ -30,10 +30,10 @@ public:
     [[nodiscard]] const std::string& listen() const { return words_[3]; }
     [[nodiscard]] Process& process() { return *process_; }
 
-    /// Whether it says this on stderr within 20 s; what it has said so far does when it does not.
+    /// True if the peer prints this within 20 s. If not, the test shows its output so far.
     [[nodiscard]] bool says(std::string_view words);
 
-    /// Kills it on the spot.
+    /// Kills it with SIGKILL.
     void kill();
     /// Starts it again at the same place, as a new run with a new record.
     void restart();
@@ -43,11 +43,11 @@ public:
     /// SIGTERM, and its end.
     void stop();
 
-    /// SIGTERM, and its end: with exit code 1, too, when the machine stood still and the peer
-    /// therefore ends at zero force.
+    /// Sends SIGTERM and waits for the end. Exit code 1 is accepted when the machine stood still
+    /// and the peer therefore ends at zero force.
     void stop_on_a_busy_machine();
 
-    /// Of the newest run, after its end.
+    /// The statistics of the newest run, after its end.
     [[nodiscard]] nlohmann::json statistics() const;
     [[nodiscard]] std::string record() const { return folder_.file("run.rec"); }
 
@@ -59,20 +59,20 @@ private:
     std::optional<Process> process_;
 };
 
-/// What a running peer answers to a command of its control socket.
+/// Returns a running peer's answer to a command on its control socket.
 [[nodiscard]] nlohmann::json answer_of(const std::string& socket, const std::string& command);
 
-/// Expects a running peer to receive so many messages, to be sure of a record worth replaying.
+/// Expects a running peer to receive `count` messages, so that its record is worth replaying.
 void expect_to_hear(const std::string& socket, int messages);
 
 /// The fault that holds the device of a running peer at zero force, as its control socket names it:
 /// "none", or "timeout" when the machine stood still.
 [[nodiscard]] std::string fault_at(const std::string& socket);
 
-/// What a person who cannot feel the cube does, 60 s at most: while one of the peers at these
-/// sockets is at zero force for a fault, hold the device still for the second that it needs, and
-/// press its button until the fault has gone; without a fault, reach out a little further, as the
-/// cube may have been pushed away meanwhile. Whether the cube is felt then.
+/// Acts like a person who cannot feel the cube, 60 s at most. While a peer at one of these sockets
+/// is at zero force for a fault, it holds the device still for the required second, and presses the
+/// button until the fault is over. Without a fault it reaches out further, as the cube may have
+/// been pushed away. Returns whether the cube was felt.
 template <typename Felt, typename Press, typename Reach>
 [[nodiscard]] bool comes_to_be_felt(const std::vector<std::string>& sockets, Felt felt, Press press,
                                     Reach reach)
@@ -97,12 +97,12 @@ template <typename Felt, typename Press, typename Reach>
     return true;
 }
 
-/// A tick of a record, as far as these tests look at it.
+/// The columns of a record's tick that these tests use.
 struct Tick {
     double time_s = 0.0; // from the start of the session
     std::string phase;
     bool remote_fresh = false;
-    double force_n = 0.0; // that the device was told
+    double force_n = 0.0; // force given to the device
     std::array<double, 3> hip_mm{};
     bool docked = false;
 };
@@ -110,11 +110,11 @@ struct Tick {
 /// The ticks of a record, by `hapnet-lab export`.
 [[nodiscard]] std::vector<Tick> ticks_of(const std::string& record);
 
-/// Lives a record through again by `hapnet-lab replay`: expects the forces that were recorded, to
-/// 1e-9 N. What it says with --json.
+/// Replays a record with `hapnet-lab replay`. Expects the recorded forces, to 1e-9 N. Returns the
+/// output of --json.
 nlohmann::json expect_the_same_forces_again(const std::string& record);
 
-/// What `hapnet-lab analyse --json` says of two records.
+/// Returns the output of `hapnet-lab analyse --json` for two records.
 [[nodiscard]] nlohmann::json analysis_of(const std::string& record_a, const std::string& record_b);
 
 } // namespace hapnet::e2e

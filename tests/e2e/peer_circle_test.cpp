@@ -45,7 +45,7 @@ public:
         for (const int id : ids) start(id, "first");
     }
 
-    /// A run of its own, with a record of its own.
+    /// Starts a new run of a peer, with its own record.
     void start(int id, const std::string& name)
     {
         std::vector<std::string> words{
@@ -98,7 +98,7 @@ private:
     {
         return folder.file(std::to_string(id) + ".sock");
     }
-    /// "ready 1-2=ADDRESS,ADDRESS 1-3=...": where each sends to for each other.
+    /// "ready 1-2=ADDRESS,ADDRESS ...": the address to which each peer sends for each other.
     void read_places(const std::string& ready)
     {
         for (const int low : ids) {
@@ -122,7 +122,7 @@ private:
     std::map<int, std::optional<Process>> peers_;
 };
 
-/// Of all three, by `hapnet-lab analyse`.
+/// Analyses the records of all three with `hapnet-lab analyse`.
 nlohmann::json analysis_of_three(const std::array<std::string, 3>& records)
 {
     const Outcome analysed =

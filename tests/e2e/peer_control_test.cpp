@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Two peers in a session, asked and ended with hapnet-ctl and over their sockets.
+// Two peers in a session, queried and stopped with hapnet-ctl and over their sockets.
 #include "proto/net/unix_socket.hpp"
 #include "tests/e2e/peer.hpp"
 
@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 
 struct ControlledPeers : testing::Test {
-    /// Peer 1 has the socket.
+    /// Starts both peers. Peer 1 has the socket.
     void begin()
     {
         const std::vector<std::string> task{"--task", "T3", "--duration", "120s"};
@@ -67,7 +67,7 @@ struct ControlledPeers : testing::Test {
     std::optional<Peer> b;
 };
 
-/// Every key, with those of the parts.
+/// Returns every key, with the keys of nested objects.
 std::vector<std::string> keys_of(const json& object, const std::string& path = "")
 {
     std::vector<std::string> keys;
@@ -80,7 +80,7 @@ std::vector<std::string> keys_of(const json& object, const std::string& path = "
     return keys;
 }
 
-/// Clients that do all that they should not, until it goes out of scope.
+/// Clients that break every rule, until this object ends.
 class RudeClients {
 public:
     explicit RudeClients(const std::string& path) : thread_{[this, path] { be_rude(path); }} {}
@@ -93,7 +93,7 @@ public:
     RudeClients& operator=(const RudeClients&) = delete;
 
 private:
-    static constexpr int at_a_time = 12; // leaves places for those who behave
+    static constexpr int at_a_time = 12; // leaves places for well-behaved clients
 
     void be_rude(const std::string& path)
     {
@@ -118,9 +118,9 @@ private:
     std::thread thread_;
 };
 
-/// Whether a loop went on between two answers of at least two seconds apart. Without FIFO the
-/// clients themselves take its core, whatever they are connected to; with it, it misses no more
-/// than ten times what a measurement may, and its governor sees nothing amiss.
+/// True if a loop kept time between two answers at least two seconds apart. Without FIFO the
+/// clients take its core from it. With FIFO it may miss ten times as many ticks as a measurement,
+/// and its governor must have seen no fault.
 bool kept_time(const json& before, const json& after)
 {
     const auto since = [&](const char* key) {
@@ -220,8 +220,8 @@ TEST_F(ControlledPeers, OwnTheirSocketsAlone)
 
 TEST_F(ControlledPeers, KeepTimeWhileClientsAreRude)
 {
-    // The hypervisor may take both cores for some milliseconds at any time, and the session then
-    // ends at zero force. What the clients do to the loop, they do to every session.
+    // The hypervisor may take both cores for some milliseconds at any time, which ends a session at
+    // zero force. An effect of the clients would show in every session.
     bool keeps_time = false;
     std::string reports;
     for (int session = 0; session < 5 && !keeps_time; ++session) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What a person does before a session with a real device: look, ask, try.
+// A person's steps before a session with a real device: list, check, test.
 #include "tests/e2e/peer.hpp"
 #include "tests/e2e/process.hpp"
 #include "tests/support/fake_hd/fake_hd.hpp"
@@ -218,7 +218,7 @@ TEST(PeerDevices, TellsThePersonWithARealDeviceWhereItIsMountedAndTheirPart)
 
 TEST(PeerDevices, ThatPaceTheLoopLeaveARecordWhoseForcesCanBeLivedThroughAgain)
 {
-    // So a person takes the stylus out of its inkwell.
+    // As when a person takes the stylus out of its inkwell.
     setenv(fake_hd_log_variable, "/dev/null", 1);
     const std::string place = free_place();
     Peer simulated{2, free_place(), place, {"--task", "T3", "--duration", "6s"}};

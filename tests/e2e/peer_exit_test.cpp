@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Every way out of the daemon in the middle of a push, and what the device was told last.
+// Every way in which the daemon can end during a push, and the last commands to its device.
 #include "proto/net/clock.hpp"
 #include "tests/e2e/peer.hpp"
 #include "tests/e2e/recorded_peer.hpp"
@@ -33,7 +33,7 @@ struct Push {
         EXPECT_TRUE(recorded.pushes()) << messages();
     }
     [[nodiscard]] std::string messages() const { return text_of(folder.file("stderr")); }
-    /// Whether its messages come to contain this, while it plays on.
+    /// True if its messages come to contain this while the session continues.
     [[nodiscard]] bool comes_to_say(std::string_view words)
     {
         const bool said = comes_true([&] {
@@ -61,8 +61,8 @@ private:
 
 bool is_zero(const Told& told) { return told.newtons == 0.0 && !told.motors_on; }
 
-/// How long after the trouble (or after the last force) the device was told zero for the first
-/// time, never to be told otherwise again; expects that it was told so three times.
+/// Returns the time from the trouble (or the last force) to the first zero command that no other
+/// command follows. Expects three zero commands.
 std::chrono::nanoseconds time_to_zero(const std::vector<Told>& told)
 {
     const auto last_push =
@@ -83,7 +83,7 @@ std::chrono::nanoseconds time_to_zero(const std::vector<Told>& told)
     return std::chrono::nanoseconds{first_zero->at_ns - from};
 }
 
-/// Whether it was pushed again after the watchdog had let go.
+/// True if the device was pushed again after the watchdog had released it.
 bool pushes_after_a_halt(const std::vector<Told>& told)
 {
     const auto halt =
@@ -91,7 +91,7 @@ bool pushes_after_a_halt(const std::vector<Told>& told)
     return std::any_of(halt, told.end(), [](const Told& t) { return t.newtons > 0; });
 }
 
-/// Whether the device was told zero three times, as the last of all, since the trouble.
+/// True if the last three commands to the device are zero, and came after the trouble.
 bool rests_after_the_trouble(const std::vector<Told>& told)
 {
     const auto trouble =
@@ -101,7 +101,7 @@ bool rests_after_the_trouble(const std::vector<Told>& told)
 
 std::int64_t now_ns() { return net::monotonic_now().time_since_epoch().count(); }
 
-/// How a person, or a lost line, ends it.
+/// The ways in which a person, or a lost line, ends it.
 enum class WayOut : std::uint8_t { sigterm, sigint, sighup, hang_up, control };
 constexpr std::array ways_out{WayOut::sigterm, WayOut::sigint, WayOut::sighup, WayOut::hang_up,
                               WayOut::control};
@@ -116,7 +116,7 @@ int new_terminal()
     return master;
 }
 
-/// Just before the stop, and once the peer can know of it.
+/// The moments just before the stop, and when the peer can know of it.
 struct Stopped {
     std::int64_t before_ns = 0;
     std::int64_t after_ns = 0;
@@ -139,7 +139,7 @@ Stopped stop(Push& push, WayOut way, const std::string& control, int terminal)
     return {before_ns, now_ns()};
 }
 
-/// What of a machine's own delays is let off.
+/// Tolerance for the machine's own delays.
 constexpr auto patience = 30ms;
 
 } // namespace
@@ -182,7 +182,7 @@ TEST(PeerExit, EndsTheForceInTheNextTurnAlthoughNothingThatItWritesIsTaken)
         const std::string control = folder.file("peer.sock");
         Push push{{.control = control, .record = record, .blocked = true, .terminal = terminal}};
         const auto [before_ns, signalled_ns] = stop(push, way, control, terminal);
-        // The record is short, as the FIFO took only the beginning.
+        // The record is short, because the FIFO took only the beginning.
         EXPECT_EQ(push.recorded.wait_end(), 3);
         EXPECT_LT(std::chrono::nanoseconds{now_ns() - signalled_ns}, 1s);
         const auto& told = push.recorded.told();

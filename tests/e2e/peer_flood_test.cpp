@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Nonsense thrown at a peer's socket, by strangers and from where the other peer should be.
+// Meaningless datagrams at a peer's socket, from strangers and from the other peer's address.
 #include "proto/base/random.hpp"
 #include "proto/wire/message.hpp"
 #include "tests/e2e/peer.hpp"
@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t datagrams = 100'000;
 
-/// Random bytes of a random length; every other time they start as a state of ours does. None
-/// starts as another version would, which would rightly end a peer that waits.
+/// Random bytes of a random length. Half of them start like a state message. None starts like a
+/// message of another version, which would rightly end a peer that waits.
 std::vector<std::byte> nonsense(const base::RandomStream& stream, std::uint64_t number)
 {
     const bool like_ours = number % 4 < 2;
@@ -78,7 +78,7 @@ TEST(PeerFlood, OfRandomAndMutatedDatagramsIsCountedAndHarmless)
     EXPECT_GT(count(messages, "strangers"), datagrams / 4) << messages;
     EXPECT_GT(count(messages, "malformed"), datagrams / 4) << messages;
     EXPECT_EQ(count(messages, "states_received"), 0U);
-    // Of what has no effect the record takes 2000 a second, and a second of them at once.
+    // The record takes 2000 messages without effect per second, and a second of them at once.
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     const double recorded = 2000.0 * (took.count() + 1.0);
     const double heard =

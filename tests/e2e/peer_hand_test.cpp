@@ -87,7 +87,7 @@ TEST_F(PeersWithAPage, MoveItByHandAndNoOtherDevice)
         EXPECT_EQ(client.hand(0.0), (json{{"ok", true}}));
         std::this_thread::sleep_for(20ms);
     }
-    std::this_thread::sleep_for(600ms); // without a place: it is let go
+    std::this_thread::sleep_for(600ms); // without a place, the hand is released
     a->stop();
     b->stop();
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// A daemon with a device behind the fake libHD, and how it leaves that device.
+// A daemon with a device behind the fake libHD, and the state in which it leaves that device.
 #include "tests/e2e/peer.hpp"
 #include "tests/support/fake_hd/fake_hd.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What the fake wrote down: whole lines only, as it may be writing.
+/// Returns the fake's log: whole lines only, as it may be writing.
 std::vector<FakeHdCommand> frames_in(const std::string& file)
 {
     std::istringstream lines{text_of(file)};
@@ -65,7 +65,7 @@ protected:
         FAIL() << "never pushed: " << left_->process().err();
     }
 
-    /// Its last frames, once it has ended by this signal.
+    /// Returns its last frames, once this signal has ended it.
     [[nodiscard]] std::vector<FakeHdCommand> last_after(int signal, int exit)
     {
         left_->process().signal(signal);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// A peer that is killed at any moment, and what the other one's record says of its force.
+// A peer that is killed at any moment, and the force in the other peer's record.
 #include "proto/base/random.hpp"
 #include "proto/net/clock.hpp"
 #include "tests/e2e/peer.hpp"
@@ -28,7 +28,7 @@ constexpr double fade_s = 0.050;
 constexpr double tick_s = 0.001;
 constexpr double silence_s = hold_s + 2.0 * fade_s;
 
-/// When the states of the other side came, from the start of the session.
+/// Returns the arrival times of the other side's states, from the start of the session.
 std::vector<double> arrivals_of(const std::string& record)
 {
     const Outcome exported =
@@ -45,7 +45,7 @@ std::vector<double> arrivals_of(const std::string& record)
     return arrivals;
 }
 
-/// A time without states.
+/// An interval without states.
 struct Silence {
     double from_s = 0.0; // the last arrival
     double to_s = 0.0;   // the next, or the record's end
@@ -62,9 +62,9 @@ std::vector<Silence> silences_of(std::vector<double> arrivals, double end_s)
     return silences;
 }
 
-/// Expects that the force was zero 300 ms after the last state: 250 ms it holds, and from the first
-/// tick after that, which a busy machine begins late, it fades for 50. Whether there was a force,
-/// and the silence was long enough to tell.
+/// Expects that the force was zero 300 ms after the last state: it holds for 250 ms, and then fades
+/// for 50 ms, from the first tick after that. True if there was a force, and the silence was long
+/// enough to judge.
 bool fades(const std::vector<Tick>& ticks, const Silence& silence)
 {
     const auto first_after = [&](double time_s) {
@@ -82,15 +82,15 @@ bool fades(const std::vector<Tick>& ticks, const Silence& silence)
     return last_fresh->force_n > 0.05;
 }
 
-/// How many states the peer at this socket has received.
+/// Returns the number of states that the peer at this socket has received.
 int states_received_at(const std::string& socket)
 {
     return answer_of(socket, "stats")["messages"]["states_received"].get<int>();
 }
 
-/// The hand of one peer carries the cube. The other peer is killed so often, each time at a drawn
-/// moment between 1.5 and 3.5 s after it was first heard, and started again half a second later.
-/// Returns how often in a push.
+/// The hand of one peer carries the cube. The other peer is killed `kills` times, each time at a
+/// drawn moment between 1.5 and 3.5 s after it was first heard, and started again half a second
+/// later. Returns how many kills were during a push.
 int killed_in_a_push(int kills, const base::RandomStream& draw)
 {
     const std::string there = free_place();
@@ -127,8 +127,8 @@ TEST(PeerKill, AtAnyMomentEndsTheOthersForceWithin300MsByItsRecord)
     SCOPED_TRACE("seed " + std::to_string(seed.value()));
     int in_a_push = 0;
     int done = 0;
-    // Chance may choose the moments between two pushes, and a machine that stands still may end a
-    // session's force: such kills say nothing, and others take their place.
+    // A drawn moment may lie between two pushes, and a machine that stands still may end a
+    // session's force. Such kills do not count, and are repeated.
     while (done < kills || (in_a_push < kills / 2 && done < 5 * kills)) {
         const auto draw = seed.stream("kills/" + std::to_string(done));
         const int now = std::min(done < kills ? kills - done : kills, kills_a_session);

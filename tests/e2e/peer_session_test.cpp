@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Two peers that play through the emulator in real time, and what their records say of it.
+// Two peers that play through the emulator in real time, and their records.
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/peer.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A session from start to end; the analysis of its two records.
+/// Plays a session from start to end. Returns the analysis of its two records.
 nlohmann::json played(Emulator& emulator, const std::vector<std::string>& options)
 {
     Peer a{1, free_place(), emulator.a().to_text(), options};
@@ -35,7 +35,7 @@ nlohmann::json played(Emulator& emulator, const std::vector<std::string>& option
     return analysis_of(a.record(), b.record());
 }
 
-/// A machine too busy for a haptic loop says so itself; then only the rates are let off.
+/// A machine too busy for a haptic loop reports that itself. Then only the rates are not checked.
 bool is_valid(const nlohmann::json& analysis)
 {
     if (analysis["valid"] == true) return true;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Parts that die while the others play on, and that come back.
+// Parts that die while the others continue, and parts that come back.
 #include "tests/e2e/emulator.hpp"
 #include "tests/e2e/peer.hpp"
 
@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 const std::vector<std::string> long_t3{"--task", "T3", "--duration", "120s"};
 
-/// Waits until a peer has made so many ticks more.
+/// Waits until a peer has made `ticks` more ticks.
 void expect_to_play_on(const std::string& socket, int ticks)
 {
     const auto count = [&] { return answer_of(socket, "stats")["tick"]["count"].get<int>(); };
@@ -57,7 +57,7 @@ struct Three {
     Peer b{2, free_place(), emulator.b().to_text(), options("b.sock")};
 };
 
-/// What a survivor's record must show: an outage with zero force, and play before and after it.
+/// Expects in a survivor's record an outage with zero force, and play before and after it.
 void expect_outage_with_zero_force(Peer& survivor)
 {
     survivor.stop();
@@ -70,7 +70,7 @@ void expect_outage_with_zero_force(Peer& survivor)
         if (tick.remote_fresh) {
             after += silent > 0 ? 1 : 0;
             most_before = silent > 0 ? most_before : std::max(most_before, tick.force_n);
-        } else if (tick.time_s > 0.5 && ++silent > 20) { // of a late tick or two at the edge
+        } else if (tick.time_s > 0.5 && ++silent > 20) { // beyond a late tick or two at the edge
             most_during = std::max(most_during, tick.force_n);
         }
     }
@@ -98,7 +98,7 @@ TEST(PeerTrouble, APeerThatIsKilledAndStartedAgainJoinsTheOtherThatFeltNothingMe
         EXPECT_GT(survivor.process().err().size(), said_before);
         expect_to_play_on(three.socket_of(survivor), 700);
         if (!kills_a) continue;
-        expect_outage_with_zero_force(survivor); // B's record holds it; B starts anew
+        expect_outage_with_zero_force(survivor); // B's record has the outage, as B starts again
         EXPECT_TRUE(dead.says("goodbye"));
         survivor.restart();
         EXPECT_TRUE(survivor.says("joined the session under way"));

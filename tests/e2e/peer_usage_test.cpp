@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the peer says to the person, or the script, that starts it.
+// Messages of the peer to the person or script that starts it.
 #include "tests/e2e/no_network.hpp"
 #include "tests/e2e/peer.hpp"
 #include "tests/e2e/udp.hpp"
@@ -169,7 +169,7 @@ TEST(PeerUsage, RunsNoCodeOfAnAlgorithmWhereItOnlyPrintsOrRefuses)
     const auto planned = run("hapnet-lab", {"plan", experiment, "--out", folder.file("plan")});
     EXPECT_EQ(planned.exit, 0) << planned.err;
     EXPECT_EQ(text_of(loaded), "") << "a command ran code of the shared object";
-    // The file tells of it where it is loaded; and that it ends the program is no success.
+    // The file reports that it was loaded. A file that ends the program makes the run fail.
     const auto played = run("hapnet-lab", {"run", folder.file("plan")}, 60s);
     EXPECT_EQ(played.exit, 1);
     EXPECT_NE(played.err.find(own + " has called exit()"), std::string::npos) << played.err;

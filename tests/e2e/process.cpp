@@ -57,7 +57,7 @@ std::optional<std::string> line_with(std::string_view text, std::string_view wor
     return std::nullopt;
 }
 
-/// As a shell has it.
+/// Returns the exit code as a shell reports it.
 int exit_code_of(int status)
 {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
@@ -191,7 +191,7 @@ Outcome run(std::string_view name, const std::vector<std::string>& arguments,
     Process process{name, arguments};
     const auto exit = process.wait_exit(timeout);
     if (!exit) process.signal(SIGKILL);
-    // A stream ends when its last writer has ended: what is in the pipe is still ours to read.
+    // A stream ends when its last writer has ended. The rest in the pipe can still be read.
     std::ignore = process.wait_for_out("\n", std::chrono::seconds{1});
     std::ignore = process.wait_for_err("\n", std::chrono::seconds{1});
     return {exit, process.out(), process.err()};

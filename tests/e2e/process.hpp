@@ -12,9 +12,9 @@
 
 namespace hapnet::e2e {
 
-/// One of our programs, running. Its stdout and stderr are collected whenever one of the wait
-/// functions runs, or out() and err(). Killed with SIGKILL and reaped when it goes out of scope;
-/// dies with the test program too.
+/// A running program of this build. Its stdout and stderr are collected in out(), err() and the
+/// wait functions. It is killed with SIGKILL and reaped when the object ends, and also dies with
+/// the test program.
 class Process {
 public:
     /// Starts `name`, one of the programs of this build, e.g. "hapnet-emulator".
@@ -30,19 +30,19 @@ public:
     std::optional<std::string> wait_for_err(std::string_view words,
                                             std::chrono::milliseconds timeout);
 
-    /// The exit code; 128 + n when signal n killed it, as a shell says it; nullopt when it still
-    /// runs after `timeout`.
+    /// Returns the exit code; 128 + n when signal n killed it, as a shell reports it; nullopt when
+    /// it still runs after `timeout`.
     std::optional<int> wait_exit(std::chrono::milliseconds timeout);
 
     /// Sends SIGTERM, SIGKILL, SIGCONT, ...; nothing when it has been reaped.
     void signal(int number) const;
-    /// SIGSTOP, and waits until all threads stand still. The signal waits for a thread that takes
-    /// it, and until then the others go on: on a busy machine for tens of milliseconds.
+    /// Sends SIGSTOP, and waits until all threads have stopped. The signal waits for a thread that
+    /// takes it, and until then the others continue: on a busy machine for tens of milliseconds.
     void pause();
 
     [[nodiscard]] pid_t pid() const { return pid_; }
 
-    /// All that it has written so far.
+    /// All output so far.
     [[nodiscard]] const std::string& out();
     [[nodiscard]] const std::string& err();
 
@@ -63,8 +63,8 @@ private:
     Stream err_;
 };
 
-/// Whether this comes true within `most`. Looks every few milliseconds, so that a test waits for a
-/// state and not for a time.
+/// True if the condition holds within `most`. It is checked every few milliseconds, so that a test
+/// waits for a state and not for a time.
 template <typename Condition>
 [[nodiscard]] bool comes_true(Condition condition,
                               std::chrono::milliseconds most = std::chrono::seconds{20})
@@ -77,7 +77,7 @@ template <typename Condition>
     return true;
 }
 
-/// What a program that ends by itself leaves behind.
+/// The result of a program that ends by itself.
 struct Outcome {
     std::optional<int> exit; // nullopt: it did not end in time and was killed
     std::string out;
@@ -86,7 +86,7 @@ struct Outcome {
 [[nodiscard]] Outcome run(std::string_view name, const std::vector<std::string>& arguments,
                           std::chrono::milliseconds timeout = std::chrono::seconds{20});
 
-/// It ended with this exit code, said nothing on stdout, and these words on stderr.
+/// Expects this exit code, no stdout, and these words on stderr.
 void expect_refusal(const Outcome& outcome, int exit, const std::vector<std::string>& words);
 
 /// An empty folder for one test; removed with all it holds when it goes out of scope.

@@ -24,7 +24,7 @@ seconds_max=${HAPNET_PAGE_SECONDS:-60} # for one block
 folder=${HAPNET_PAGE_FOLDER:-$(mktemp -d)}
 [[ -n ${HAPNET_PAGE_FOLDER-} ]] || trap 'rm -rf "$folder"' EXIT
 command -v script >/dev/null || { echo "skipped: script is missing (Debian: bsdutils)" && exit 77; }
-# A clone, as far as the pages use one.
+# A clone, with the files that the pages use.
 repository=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 mkdir -p "$folder/build"
 ln -s "$(dirname "$programs")" "$folder/build/release"
@@ -76,7 +76,7 @@ shell
 last_words='for _ in {1..10}; do (($(jobs -pr | wc -l) > 1)) || break; sleep 0.1; done
 jobs -pr >.left; exit 0'
 
-# paste BLOCK: types it, line by line, into a terminal of its own; shows what the terminal shows.
+# paste BLOCK: types it line by line into a new terminal, and shows the terminal's output.
 paste() {
     rm -f .failures .left
     { cat "$1" && printf '\n%s\n' "$last_words"; } |

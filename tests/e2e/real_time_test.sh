@@ -27,7 +27,7 @@ jq -e '.kind == "real-time" and (.real_time.sessions | length) == 2' "$out/manif
     >/dev/null || fail "manifest.json"
 validate_json "$out"
 
-# Two and three hands that turn a cube, each beside the same in virtual time.
+# Two and three hands that turn a cube, each beside the same session in virtual time.
 for peers in 2 3; do
     "$script" --peers "$peers" --task T8 --delay 10ms --duration 4 --programs "$programs" \
         --out "$out/t8-$peers" >"$out/said-t8" 2>&1 || fail "T8 with $peers: $(cat "$out/said-t8")"
@@ -70,8 +70,8 @@ grep -q '"\[both\]; loss = ""30%""; ' "$sweep/real_time_sessions.csv" || fail "t
 grep -qE '^,remote-proxy,T7,firm/relaxed,3,carry,5,.*,mean_mm,' "$sweep/real_time_conditions.csv" ||
     fail "the conditions: $(cat "$sweep/real_time_conditions.csv")"
 for result in "$sweep"/cells/*/attempt-1/result.json; do
-    # Neither a mean of nothing nor of other hands: within a factor of 3 of virtual time, whatever
-    # the machine did meanwhile.
+    # The real mean is neither empty nor of other hands: it is within a factor of 3 of virtual time,
+    # whatever the machine did.
     jq -e '.real.discrepancy_m.mean as $real | .virtual.discrepancy_m.mean as $virtual |
         $real > $virtual / 3 and $real < 3 * $virtual' "$result" >/dev/null || fail "$result"
     jq -e '.valid == (.invalid_because == [])' "$result" >/dev/null || fail "$result: valid"
@@ -79,7 +79,7 @@ done
 [[ -z $(compgen -G "$sweep/cells/*/*/*.rec") ]] || fail "records were left behind"
 jq -e '(.real_time.sessions | length) == 2' "$sweep/manifest.json" >/dev/null || fail "the manifest"
 validate_json "$sweep"
-# A session that was broken off is played again, and no other; one that was not valid is not used.
+# An interrupted session is played again, and no other; one that was not valid is not used.
 read -r first second < <(echo "$sweep"/cells/*/attempt-1/result.json)
 before=$(stat -c %Y%i "$first")
 rm "$second"
@@ -94,7 +94,7 @@ refused=$("$script" fig6a --out "$out/limits" --programs "$programs" 2>&1) &&
     fail "limits are played"
 [[ $refused == *'kind = "plane"'* ]] || fail "limits: $refused"
 
-# As Ctrl-C does it: to all processes of a group.
+# As Ctrl-C does: sends it to all processes of a group.
 set -m
 "$script" --quick --duration 20 --programs "$programs" --out "$out/interrupted" >/dev/null 2>&1 &
 group=$!

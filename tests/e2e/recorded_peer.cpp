@@ -45,7 +45,7 @@ int fall(volatile int* depth)
     return *depth < 0 ? 0 : fall(depth) + room[0];
 }
 
-/// Puts a pipe there that is full, and that nobody reads.
+/// Puts a full pipe there that has no reader.
 void block(int descriptor)
 {
     int ends[2] = {-1, -1};
@@ -56,7 +56,7 @@ void block(int descriptor)
     dup2(ends[1], descriptor);
 }
 
-/// Makes the terminal that this leads to the process's own, full and unread.
+/// Makes the terminal of this master the process's own, full and unread.
 void take_over(int terminal)
 {
     setsid();
@@ -116,7 +116,7 @@ public:
             net::sleep_until(due += 1ms);
             if (!beat()) return;
         }
-        hang(110ms); // as every device's does that waits for a cycle in vain
+        hang(110ms); // as every device that waits in vain for a cycle
     }
 
 private:
@@ -131,7 +131,7 @@ private:
         tell({.is_trouble = true});
         net::sleep_until(net::monotonic_now() + duration);
     }
-    /// The button, held but for 20 ms in the middle of a push.
+    /// Holds the button, except for 20 ms in the middle of a push.
     void hold(device::Sample& sample)
     {
         const bool is_released = pushes_ >= pushes_before_trouble && released_ < 20;
@@ -193,7 +193,7 @@ private:
     bool is_troubled_ = false;
 };
 
-/// What hapnet-peer does, with this device.
+/// Does the work of hapnet-peer, with this device.
 base::Result<int> play(const std::pair<RecordedPlay, int>& options)
 {
     const auto& [asked, pipe] = options;
@@ -260,7 +260,7 @@ RecordedPeer::RecordedPeer(const RecordedPlay& asked)
             dup2(open(asked.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
         }
         const net::CommandLine<std::pair<RecordedPlay, int>> line{std::pair{asked, ends[1]}};
-        // Not this test program's own ways out.
+        // Without the exit handlers of this test program.
         _exit(net::run_program<std::pair<RecordedPlay, int>>("recorded peer", line, play));
     }
     close(ends[1]);
@@ -292,7 +292,7 @@ bool RecordedPeer::has_more(int wait_ms) const
 
 bool RecordedPeer::pushes()
 {
-    // A peer that was late pushes no more until its user acts.
+    // A peer that was late applies no force until its user acts.
     constexpr int patience = 10'000; // ticks
     int pushes = 0;
     for (int quiet = 0; pushes < pushes_before_trouble && quiet < patience && take_one(); ++quiet) {
@@ -312,7 +312,7 @@ void RecordedPeer::signal_thread(std::size_t thread, int number) const
     for (const auto& entry : std::filesystem::directory_iterator{tasks}) {
         threads.push_back(std::stoi(entry.path().filename()));
     }
-    // In the order of their birth: numbers begin again at the system's largest one.
+    // By birth: numbers begin again at the system's largest one.
     pid_t largest = 0;
     std::ifstream{"/proc/sys/kernel/pid_max"} >> largest;
     const auto age = [&](pid_t one) { return one >= pid_ ? one - pid_ : one - pid_ + largest; };

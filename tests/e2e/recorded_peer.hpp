@@ -10,7 +10,7 @@
 
 namespace hapnet::e2e {
 
-/// What becomes of a daemon in the middle of a push.
+/// The fate of a daemon in the middle of a push.
 enum class Trouble : std::uint8_t {
     none,
     exception,   // in the servo
@@ -24,10 +24,10 @@ enum class Trouble : std::uint8_t {
     nonsense,    // ... that it is at a place that is no number
     docked,      // ... that its stylus lies in its holder
     exit,        // in the servo: code that it calls ends the program with exit code 0
-    mute,        // the device, which sets the rhythm, calls nobody any more
+    mute,        // the device sets the pace, and stops calling
 };
 
-/// How the daemon is built, and what happens to it.
+/// The setup of the daemon, and its fate.
 struct RecordedPlay {
     Trouble trouble = Trouble::none;
     device::Pacing pacing = device::Pacing::host;
@@ -37,23 +37,23 @@ struct RecordedPlay {
     std::string control{};  // where its control socket is to be; empty: it has none
     std::string record{};   // where its record goes; empty: it writes none
     bool blocked = false;   // stdout and stderr are full pipes that nobody reads
-    /// The master of a pseudo-terminal that becomes its own: stdin, stdout and stderr are that one,
-    /// which is full and not read. It hangs up when the test closes the master. -1: none.
+    /// The master of a pseudo-terminal that becomes the daemon's stdin, stdout and stderr. It is
+    /// full and not read. It hangs up when the test closes the master. -1: none.
     int terminal = -1;
     bool needs_button = false; // a dead man's switch, let go in the middle of a push
 };
 
-/// One thing that the device was told: bytes as they go through a pipe.
+/// One command to the device, in the bytes that go through a pipe.
 struct Told {
     double newtons = 0.0;
     std::int64_t at_ns = 0; // CLOCK_BOOTTIME
     bool motors_on = false;
     bool by_halt = false;
-    bool is_trouble = false; // nothing was told: here the trouble begins
+    bool is_trouble = false; // no command: the trouble begins here
 };
 
-/// A daemon of the shell's own parts in a child process, with a device that writes down all that it
-/// is told: a simulated Omni in a hand that plays P1.
+/// A daemon of the shell's own parts in a child process, with a device that records all commands: a
+/// simulated Omni in a hand that plays P1.
 class RecordedPeer {
 public:
     explicit RecordedPeer(const RecordedPlay& play);
@@ -63,7 +63,7 @@ public:
 
     /// Waits until its hand has felt a force 200 times.
     [[nodiscard]] bool pushes();
-    /// Waits, 20 s at most, until this holds for all that the device was told; false: it never did.
+    /// Waits, 20 s at most, until the commands so far meet the condition; false: they never did.
     template <typename Condition>
     [[nodiscard]] bool tells(Condition condition)
     {
@@ -72,15 +72,15 @@ public:
         }
         return true;
     }
-    /// Reads what the device was told so far: unread, it would fill the pipe and stop the daemon.
+    /// Reads the commands so far. Unread, they would fill the pipe and stop the daemon.
     void take_what_is_there()
     {
         while (has_more(0) && take_one()) {}
     }
     void signal(int number) const;
-    /// To one of its threads, in the order in which they began: 0 is the main one.
+    /// Sends a signal to one thread, by the order of their starts: 0 is the main thread.
     void signal_thread(std::size_t thread, int number) const;
-    /// Waits for its end: the exit code, or 128 + the signal that it died of.
+    /// Waits for its end. Returns the exit code, or 128 + the signal that ended it.
     [[nodiscard]] int wait_end();
 
     [[nodiscard]] const std::vector<Told>& told() const { return told_; }

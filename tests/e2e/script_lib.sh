@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What the tests of our scripts have in common. To be sourced with the script and the folder of the
+# Functions for the tests of our scripts. To be sourced with the script and the folder of the
 # programs. Sets script, programs, and out, an empty folder that goes when the test ends.
 set -euo pipefail
 

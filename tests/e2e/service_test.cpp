@@ -28,7 +28,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What a manager has heard, and when it looked.
+/// A message to the manager, and when the manager looked.
 struct Heard {
     std::string text;
     base::TimePoint at;
@@ -57,7 +57,7 @@ public:
     Manager(const Manager&) = delete;
     Manager& operator=(const Manager&) = delete;
 
-    /// The next message; "" when there is none within 10 s.
+    /// Returns the next message; "" when there is none within 10 s.
     [[nodiscard]] Heard next(std::chrono::milliseconds most = 10s) const
     {
         pollfd polled{socket_, POLLIN, 0};
@@ -67,7 +67,7 @@ public:
         return {{bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0))},
                 net::monotonic_now()};
     }
-    /// The first that is no sign of life.
+    /// Returns the first message that is not a sign of life.
     [[nodiscard]] std::string next_news() const
     {
         while (true) {
@@ -81,7 +81,7 @@ private:
     int socket_;
 };
 
-/// It is ready when it has said so, shows signs of life from then on, and says when it stops.
+/// Expects news when the program is ready and when it stops, and signs of life between.
 void expect_a_service(const Manager& manager, Process& program, std::string_view line)
 {
     EXPECT_EQ(manager.next().text, "READY=1");
@@ -127,7 +127,7 @@ TEST(Service, OfAPeerShowsNoSignOfLifeWhileItsLoopStandsStill)
     Peer other{2, free_place(), play.listen, {"--task", "P1", "--duration", "60s"}};
     play.remote = other.listen();
 
-    const Manager manager; // not of the other
+    const Manager manager; // not the manager of the other test
     RecordedPeer recorded{play};
     std::vector<base::TimePoint> signs;
     std::jthread reader{[&](const std::stop_token& stop) {

@@ -28,8 +28,8 @@ struct Arrival {
 
 [[nodiscard]] std::vector<std::uint64_t> numbers_of(const std::vector<Arrival>& arrivals);
 
-/// A program that knows nothing of Hapnet, at one end of the network: sends numbered datagrams
-/// that carry their send time, and notes the numbered ones that arrive.
+/// A program that knows nothing of Hapnet, at one end of the network. It sends numbered datagrams
+/// with their send time, and records the numbered datagrams that arrive.
 class Host {
 public:
     explicit Host(std::string_view local = "127.0.0.1:0");

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What the units of systemd grant is enough: the limits for real-time scheduling and locked memory
-# without any capability, and the system calls and address families that the programs use.
+# The units of systemd grant enough: the limits for real-time scheduling and locked memory without
+# any capability, and the system calls and address families that the programs use.
 # Usage: units_test.sh packaging/systemd FOLDER-WITH-THE-PROGRAMS
 # shellcheck source=tests/e2e/script_lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/script_lib.sh"
@@ -15,8 +15,8 @@ tested=0
 # value_of UNIT KEY: the last value of a key; the values of a key that lists.
 value_of() { sed -n "s/^$2=//p" "$units/$1.service"; }
 
-# The programs as a session has them, each with a word before it: one after the other is traced.
-# as TRACED NAME WORD...: becomes the program NAME, under strace when it is the traced one.
+# The programs as in a session, each after a word that is traced in its turn.
+# as TRACED NAME WORD...: becomes the program NAME, under strace when NAME is TRACED.
 as() {
     local before=()
     [[ $1 != "$2" ]] || before=(strace -D -f -qq -o "$out/calls") # -D: the child is the program
@@ -31,8 +31,8 @@ wait_until() {
     return 1
 }
 
-# end_of PID NAME: waits for a program, which must end with 0; or with 1 where the machine let it
-# stand still, for which a peer ends at zero force. It made its system calls all the same.
+# end_of PID NAME: waits for a program, which must end with 0. On a machine that stood still a peer
+# ends at zero force with 1, but made its system calls all the same.
 end_of() {
     local code=0
     wait "$1" || code=$?
@@ -119,8 +119,8 @@ else
     echo "not tested: system calls, which needs strace and systemd-analyze"
 fi
 
-# With the limits of its unit, and no capability at all, a program lacks nothing.
-# under_limits UNIT PROGRAM WORD...: what it says.
+# A program works with the limits of its unit, and without any capability.
+# under_limits UNIT PROGRAM WORD...: prints its output.
 under_limits() {
     prlimit --rtprio="$(value_of "$1" LimitRTPRIO)" \
         --memlock="$(value_of "$1" LimitMEMLOCK | sed s/infinity/unlimited/)" \

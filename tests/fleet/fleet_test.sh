@@ -25,7 +25,7 @@ fail() {
     exit 1
 }
 left_out() { echo "fleet_test: left out: $1"; }
-# have PROGRAM...: whether all of them are there.
+# have PROGRAM...: true if all of them are installed.
 have() {
     local program
     for program in "$@"; do command -v "$program" >/dev/null || return 1; done
@@ -59,9 +59,9 @@ loss = ["0%", "25%", "50%", "75%", "93%"]
 EOF
 
 digest_in() { sed -n 's/^digest //p' "$1"; }
-# plan NAME: the same sweep in a folder of its own.
+# plan NAME: makes the same sweep in a folder of its own.
 plan() { "$lab" plan "$work/sweep.toml" --seeds "$seeds" --out "$work/$1" >"$work/$1.plan.log"; }
-# same NAME SINCE: its digest is that of one process.
+# same NAME SINCE: expects the digest of the single process.
 same() {
     local digest
     digest=$(digest_in "$work/$1.log")
@@ -89,7 +89,7 @@ kill_some() {
         for _ in {1..600}; do
             local playing
             playing=$(pgrep -f -- "hapnet-lab run .*--shard [0-9]*/$shards" | head -1 || true)
-            # Only those of this folder, and only once they have played something.
+            # Kills only programs of this folder, and only after they have played something.
             if [[ -n $playing ]] && tr '\0' ' ' <"/proc/$playing/cmdline" | grep -qF "$folder" &&
                 [[ -n $(find "$folder/shards" -name '*.jsonl' -size +4k 2>/dev/null) ]]; then
                 kill -KILL "$playing" && killed=$((killed + 1)) && break

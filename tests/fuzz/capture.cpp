@@ -18,14 +18,14 @@ void ensure_whole(const std::optional<emulator::tools::MeasuredWay>& way)
     for (std::size_t i = 0; i < way->lost.size(); ++i) {
         base::ensure(!(way->lost[i] && way->delays[i]));
     }
-    // It begins and ends with one that arrived.
+    // The stream begins and ends with a datagram that arrived.
     base::ensure(!way->lost.empty() && !way->lost.front() && !way->lost.back());
 }
 
 } // namespace
 
-/// Packets lie within the bytes; what is measured of them, as one capture and as both ends of a
-/// path, is whole; what cannot be read names a packet.
+/// Packets lie within the bytes. Measurements of them, as one capture and as both ends of a path,
+/// are consistent. Errors name a packet.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     std::string bytes;

@@ -15,7 +15,7 @@ using namespace hapnet::emulator;
 
 const base::TimePoint start{};
 
-/// Files came with the request, and are not there to be read again.
+/// True if a profile names files. They came with the request, and cannot be read again.
 bool names_files(const std::string& profile) { return profile.find("file =") != std::string::npos; }
 
 /// Says the text to the emulator, and looks at the answers.
@@ -39,9 +39,9 @@ void say(const std::string& text, EmulationFake& fake)
 
 } // namespace
 
-/// Whatever a client of the control socket sends, each line of the answers is an object that says
-/// whether it is one of success, and the profile that is shown in the end reads back. So it is with
-/// one path, with links and with clients.
+/// Every line of an answer to any client of the control socket is an object that says whether the
+/// request succeeded. The profile shown in the end reads back. This holds for one path, for links
+/// and for clients.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     std::string text;

@@ -70,8 +70,8 @@ void check_losses(const std::string& text)
 
 } // namespace
 
-/// What is accepted has quantiles that ascend, delays and shares in range, and rates at which a
-/// datagram leaves at the first moment that has room for it; what is not names its line.
+/// An accepted table has ascending quantiles, and delays and shares in range. At its rates, a
+/// datagram leaves at the first moment with room for it. Errors name a line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     std::string text;

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-/// Reports that are accepted encode to themselves, and give a place that gives their angles back,
-/// or none. A start-up comes to an end whatever it hears.
+/// Accepted reports encode to themselves, and give a place whose angles are the reported ones, or
+/// none. A start-up ends whatever it receives.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-/// Any frame is classified, and what is said of its packet stands in it. One that is not understood
-/// belongs to no flow, and its bytes behind the packet change nothing.
+/// Any frame is classified, and the facts of its packet are in its bytes. A frame that is not
+/// understood belongs to no flow, and bytes behind the packet change nothing.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Any bytes are a frame of some kind. Fixed checksums are right: fixing them again changes
-/// nothing, and the frame stays what it was. An answer to one that is too big is never answered.
+/// nothing, and the frame stays what it was. "Too big" answers get no answer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-/// A way that is accepted can be gone and stays in reach; an operator that is accepted prints as
-/// text that reads back as the same. Errors are not empty.
+/// An accepted path can be followed and stays in reach. An accepted operator prints as text that
+/// reads back as the same operator. Errors are not empty.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

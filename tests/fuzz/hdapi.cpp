@@ -59,8 +59,8 @@ Report report_from(std::span<const std::byte>& bytes)
 
 } // namespace
 
-/// Whatever the library says: its errors are faults, its figures make sense or are not taken, its
-/// texts are one line that any terminal and any JSON can bear, and samples are finite.
+/// Whatever the library reports, its errors become faults, its figures make sense or are not used,
+/// its texts are one line that is safe for terminals and JSON, and samples are finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     auto bytes = fuzz::bytes_of(data, size);

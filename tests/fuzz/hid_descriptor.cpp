@@ -15,7 +15,7 @@ namespace {
 using namespace hapnet::device::hid;
 using hapnet::base::ensure;
 
-/// Whoever has accepted a description can speak to the device in it, whatever it says.
+/// Every accepted description allows messages to its device.
 void speak(const ForceLayout& layout)
 {
     const std::array<std::uint32_t, 2> blocks{1, 2};
@@ -36,8 +36,8 @@ void speak(const ForceLayout& layout)
 
 } // namespace
 
-/// What is accepted lies inside its reports: all values can be read, and written back to the same
-/// bits. What gives a layout of forces can be spoken to. Errors are not empty.
+/// Accepted fields lie inside their reports: all values can be read, and written back to the same
+/// bits. A device whose description gives a layout of forces can be driven. Errors are not empty.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const auto bytes = hapnet::fuzz::bytes_of(data, size);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-/// Whatever a service says: what is taken is finite and bounded, and its identities can be sent
+/// Whatever a service says, accepted values are finite and bounded, and its identities can be sent
 /// back in a message that asks for nothing else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// A trace that is accepted has datagrams, and printed as one row of digits it reads as the same;
-/// so does a pattern. Errors are not empty.
+/// An accepted trace has datagrams, and printed as one row of digits it reads as the same trace. So
+/// does a pattern. Errors are not empty.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -6,8 +6,8 @@
 
 #include <string>
 
-/// What is read teaches a profile that reads back as itself, unless nothing arrived; what is not
-/// names its line.
+/// A measurement that can be read gives a profile that reads back as itself, unless nothing
+/// arrived. Errors name a line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

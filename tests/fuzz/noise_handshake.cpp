@@ -72,8 +72,8 @@ void expect_read(NoiseKk& side, secure::Bytes message, secure::Bytes payload)
     base::ensure(std::ranges::equal(side.payload(), payload));
 }
 
-/// Reads what an attacker made of a genuine message: only the genuine one is accepted, before and
-/// after others.
+/// Offers messages that an attacker made of a genuine one. Only the genuine message is accepted,
+/// before and after the others.
 void expect_refused(NoiseKk side, secure::Bytes made_up, secure::Bytes genuine)
 {
     if (std::ranges::equal(made_up, genuine)) return;
@@ -85,9 +85,9 @@ void expect_refused(NoiseKk side, secure::Bytes made_up, secure::Bytes genuine)
 
 } // namespace
 
-/// Both messages of a handshake carry what was put into them, and whatever else comes in the place
-/// of either is refused. The first byte says how the rest is used: as payload, as the message
-/// itself, or as a change of the genuine one, from the place that the second byte names.
+/// Both messages of a handshake carry what was put into them, and any other message in the place of
+/// either is refused. The first byte says how the rest is used: as payload, as the message itself,
+/// or as a change of the genuine one, from the place that the second byte names.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const auto input = fuzz::bytes_of(data, size);

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
-/// Whatever a client of a peer's control socket sends, each line of the answers is an object that
-/// says whether it is one of success, and the peer is stopped as often as it says so.
+/// Every line of an answer to any client of a peer's control socket is an object that says whether
+/// the request succeeded. The peer is stopped as often as it says so.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

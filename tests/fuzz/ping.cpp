@@ -5,8 +5,8 @@
 
 #include <string>
 
-/// What is read has a delay for each datagram that is not lost, and means the same with the line
-/// ends of Windows; what is not read names its line.
+/// Output that can be read has a delay for each datagram that is not lost, and means the same with
+/// the line ends of Windows. Errors name a line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -6,8 +6,8 @@
 #include "tests/fuzz/fuzz_target.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
-/// Whatever plan.json holds, it is a plan or refused with the name of the file; and an experiment
-/// that a plan holds is read or refused, with the plan's own files and no other.
+/// Any plan.json is a plan, or is refused with the name of the file. An experiment in a plan is
+/// read or refused, with the plan's own files and no others.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -35,8 +35,8 @@ void check_scripts(const lab::hands::Imported& imported)
 
 } // namespace
 
-/// The first line names columns. What is accepted becomes scripts in the workspace that read back,
-/// and a manifest that does; what is not says why. Manifests, too.
+/// The first line names columns. An accepted recording becomes scripts in the workspace that read
+/// back, and a manifest that reads back. Errors have a reason. Manifests are tested, too.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     std::string text;

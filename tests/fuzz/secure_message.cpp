@@ -36,9 +36,8 @@ std::unique_ptr<secure::Association> association(std::uint8_t id)
 
 } // namespace
 
-/// Whatever comes, an association with a live key opens nothing that was not sealed for it. The
-/// first byte says what the rest is put into: itself, or bytes that are changed in a genuine
-/// message.
+/// An association with a live key opens nothing that was not sealed for it. The first byte says how
+/// the rest is used: as a datagram, or as changes of a genuine message.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const auto input = fuzz::bytes_of(data, size);

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-/// Whatever the lines of a shard hold, sums that are right included, they are sessions or damaged.
+/// Any lines of a shard, also with correct checksums, are sessions or damaged.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-/// Whatever the results of a session in a sweep say, they are read or refused; what was read is
-/// written as something that reads back as the same.
+/// Any results of a session in a sweep are read or refused. Results that were read are written as
+/// text that reads back as the same.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

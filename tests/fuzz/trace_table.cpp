@@ -12,7 +12,7 @@ namespace {
 using namespace hapnet;
 using emulator::Measure;
 
-/// As a table of another dialect: tabs, quotes and decimal commas.
+/// Prints a table in another dialect: tabs, quotes and decimal commas.
 std::string printed(const emulator::TraceRows& rows, std::string_view value_name)
 {
     const bool has_times = !rows.times.empty();
@@ -47,8 +47,8 @@ void check(std::string_view text, Measure measure, const emulator::TableFormat& 
 
 } // namespace
 
-/// The first line names columns. What is accepted reads as the same when it is printed in another
-/// dialect; what is not names its line.
+/// The first line names columns. An accepted table reads as the same table when it is printed in
+/// another dialect. Errors name a line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     std::string bytes;

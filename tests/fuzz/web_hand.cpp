@@ -11,9 +11,9 @@
 #include <string>
 #include <variant>
 
-/// Whatever pages send about the hand, a peer takes the request that follows from it, and moves its
-/// hand to the place that the page has named, within reach. One page at a time holds the hand, and
-/// a silence ends that.
+/// Whatever pages send about the hand, a peer accepts the resulting request, and moves its hand to
+/// the place that the page has named, within reach. One page at a time holds the hand, and a
+/// silence ends that.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-/// Whatever daemons send as lines, what pages get is JSON with an entry for each peer, as is the
-/// history, and every figure that a trap may use is a number with a name that is announced.
+/// For any lines from daemons, pages get JSON with an entry for each peer, and the history is JSON.
+/// Every figure for traps is a finite number with an announced name.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-/// Whatever bytes a client sends, the server's parser and gate give a verdict; who is let in has
-/// named one host and its port, is of no other site, and has the token wherever that is wanted.
+/// For any bytes from a client, the server's parser and gate give a verdict. An admitted client has
+/// named one host and its port, is of no other site, and has the token wherever it is needed.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hapnet;

@@ -25,7 +25,7 @@ public:
         const double share = (static_cast<double>(byte()) - 128.0) / 127.0;
         return most * share * share * share;
     }
-    /// Any bits at all.
+    /// Any bits.
     double anything()
     {
         std::uint64_t bits = 0;
@@ -98,8 +98,8 @@ void act(World& world, Bytes& bytes)
 
 } // namespace
 
-/// Whatever scene bytes make, and whatever is done in it: everything stays finite, and no hand
-/// pushes with more than its greatest force.
+/// In any scene, under any inputs, everything stays finite, and no hand pushes with more than its
+/// greatest force.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     Bytes bytes{std::span{data, size}};

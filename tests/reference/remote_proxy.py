@@ -31,7 +31,7 @@ RUNNING_S = 27.0
 MASS, DRAG = 0.1, 10.0
 CONTACT_K, CONTACT_C, FORCE_MAX = 500.0, 2.0, 3.3
 FACE = 0.025  # from the cube's centre to a HIP that touches it
-STOP = 0.0747  # where the static cube stops the centre
+STOP = 0.0747  # the cube's centre when the static cube stops it
 WORLD_STEPS = 5
 
 

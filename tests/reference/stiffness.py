@@ -164,8 +164,8 @@ def main():
                 for key, value in here.items():
                     fine &= check(f"{algorithm} at {delay} ms, {key}", value,
                                   float(rows[algorithm][key]), TOLERANCE)
-            # An algorithm that is soft gains nothing by its own perfect network, and a force that
-            # comes a whole period late is no stiffness.
+            # A soft algorithm gains nothing by comparison with its own perfect network, and a force
+            # that comes a whole period late is no stiffness.
             if delay == 100 and float(rows["wave"]["stiffness_ratio"]) >= 0.5:
                 fine = False
                 print("wave at 100 ms renders half of what is due, or more: DIFFERS")

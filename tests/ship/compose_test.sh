@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # The services of packaging/docker/compose.yaml play a session: a container each, with the command,
-# limits and volumes that the file says, in one network namespace that has the addresses of all.
-# The images are there already. Says why where it cannot be done, and exits 77.
+# limits and volumes of the file, in one network namespace that has all addresses. The images are
+# there already. Says why where it cannot be done, and exits 77.
 #   compose_test.sh REPOSITORY IMAGES WORK_DIR
 # IMAGES: the folder in which images_test.sh keeps what buildah stores.
 set -euo pipefail
@@ -38,8 +38,8 @@ ip link set lo up
 /usr/bin/python3 "$repository/tests/ship/compose.py" "$repository/packaging/docker/compose.yaml" \
     >"$work/services" || fail "compose.yaml: see above"
 
-# A container for each service. A volume is a folder that belongs to the user that the folder of
-# the image at its place belongs to, as a new one is.
+# A container for each service. A volume is a folder with the owner of the image's folder at its
+# place, as for a new volume.
 are_limited=yes
 declare -A container=() mounts=() programs=() commands=()
 while IFS="|" read -r name image address volumes limits command <&3; do
@@ -67,12 +67,12 @@ while IFS="|" read -r name image address volumes limits command <&3; do
     commands[$name]=$command
 done 3<"$work/services"
 
-# service NAME WORD...: the program of its image with these words, in its container.
+# service NAME WORD...: runs the image's program with these words, in its container.
 service() {
     # shellcheck disable=SC2086 # one word each
     buildah run ${mounts[$1]} "${container[$1]}" -- "${programs[$1]}" "${@:2}"
 }
-# with_command NAME WORD...: its command of the file, and these words.
+# with_command NAME WORD...: runs the file's command with these words added.
 with_command() {
     local words
     read -ra words <<<"${commands[$1]}"

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The packages as a stranger gets them: made, looked at by lintian, installed in a bare Debian 12
-# root, tried, and removed without a trace. As root.
+# Tests the packages as a user gets them: made, checked by lintian, installed in a bare Debian 12
+# root, tried, and removed without a trace. Needs root.
 #   ship_test.sh REPOSITORY WORK_DIR
 set -euo pipefail
 repository=$1
@@ -21,7 +21,7 @@ fi
 "$repository/scripts/package.sh" --out "$work/packages"
 lintian --allow-root --fail-on error,warning "$work"/packages/*.deb
 
-# The tarball: nothing but the C library, and libudev for devices; no newer than Ubuntu 22.04 has.
+# The tarball needs only the C library, as old as that of Ubuntu 22.04, and libudev for devices.
 tar -C "$work" -xzf "$work"/packages/hapnet-*.tar.gz
 folder=$(find "$work" -maxdepth 1 -name 'hapnet-*-linux-*' -type d)
 newest() {
@@ -46,12 +46,12 @@ files=$(find "$work/packages" -type f -not -name SHA256SUMS | wc -l)
 # shellcheck source=tests/ship/wheel.sh
 . "$repository/tests/ship/wheel.sh"
 try_wheel "$work"/packages/hapnet-*.whl "$folder/bin" "$work/venv"
-# What is linked into it is others', and under licences that ask for their texts.
+# The libraries linked into it are others' work, under licences that require their texts.
 for notice in libusb-1.0-0-dev libhidapi-dev libsodium-dev LGPL-2.1 README; do
     [[ -s $folder/share/doc/hapnet/linked/$notice ]] || fail "the tarball has no notice $notice"
 done
 
-# What the shells complete, and the manual pages, of the programs of the tarball.
+# The shell completions and the manual pages of the tarball's programs.
 for shell in zsh fish; do
     command -v "$shell" >/dev/null || fail "$shell is missing: scripts/setup.sh --ship installs it"
 done
@@ -97,7 +97,7 @@ begin=$SECONDS
 inside sh -c 'apt-get -q -y install --no-install-recommends /root/hapnet-emulator_*.deb' \
     >>"$work/apt.log" 2>&1 || fail "installing: $(tail -5 "$work/apt.log")"
 inside hapnet-emulator --version
-# The README's first example, as it stands: its build/release/bin is where the package's are.
+# The README's first example, unchanged: its build/release/bin leads to the package's programs.
 mkdir -p "$root/root/clone/build/release"
 ln -s /usr/bin "$root/root/clone/build/release/bin"
 awk '
@@ -111,7 +111,7 @@ echo "ship_test: installed and tried in $((SECONDS - begin)) s"
 for file in man/man1/hapnet-emulator.1.gz bash-completion/completions/hapnet-ctl; do
     [[ -s $root/usr/share/$file ]] || fail "$file is not there"
 done
-# nothing_left PACKAGE...: they are removed without a trace.
+# nothing_left PACKAGE...: expects that they are removed without a trace.
 nothing_left() {
     inside apt-get -q -y purge "$@" >>"$work/apt.log" 2>&1
     local left
@@ -139,7 +139,7 @@ chroot "$root.build" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:
     >"$work/emulator.log" 2>&1 || fail "the emulator alone: $(tail -5 "$work/emulator.log")"
 grep '^hapnet-emulator [0-9]' "$work/emulator.log" ||
     fail "the emulator alone: $(tail -1 "$work/emulator.log")"
-# The page of a run comes with it.
+# The page of a run belongs to it.
 alone=$(cd "$root.build" && find root/clone -path '*/bin/hapnet-emulator' -type f | head -1)
 chroot "$root.build" "/$alone" --listen-a 127.0.0.1:0 --listen-b 127.0.0.1:0 --delay 1ms \
     --duration 100ms --stats /root/run.json >>"$work/emulator.log" 2>&1
@@ -150,7 +150,7 @@ umount "$root.build/proc"
 rm -rf "$root.build"
 echo "ship_test: the emulator alone was built in $((SECONDS - begin)) s"
 
-# The tarball runs where no package of ours is.
+# The tarball runs where no package of ours is installed.
 cp -r "$folder" "$root/root/"
 inside "/root/${folder##*/}/bin/hapnet-emulator" --version
 inside "/root/${folder##*/}/bin/hapnet-lab" --version

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# To be sourced by the tests that try the wheel. fail() is theirs.
+# To be sourced by the tests of the wheel, which define fail().
 
 # try_wheel WHEEL PROGRAMS VENV: installs it into a new environment, without a network, and has it
 # drive the emulator in the folder PROGRAMS.

@@ -44,7 +44,7 @@ std::uint64_t CaptureReader::packets()
 
 void CaptureReader::read_all()
 {
-    const int pipe = open(path_.c_str(), O_RDONLY | O_CLOEXEC); // returns when somebody writes
+    const int pipe = open(path_.c_str(), O_RDONLY | O_CLOEXEC); // returns when a writer opens it
     std::vector<char> part(1 << 16);
     std::array<char, sizeof(BlockHead)> head{};
     std::size_t head_bytes = 0; // that are there
@@ -72,7 +72,7 @@ void CaptureReader::read_all()
     close(pipe);
 }
 
-/// A reader that nobody has ever written to would wait for ever.
+/// A reader without any writer would wait for ever.
 void CaptureReader::end()
 {
     if (!thread_.joinable()) return;

@@ -21,7 +21,7 @@ public:
 
     [[nodiscard]] const std::string& path() const { return path_; }
 
-    /// Of the whole capture: ask when its writer has ended.
+    /// Returns the packets of the whole capture, once its writer has ended.
     [[nodiscard]] std::uint64_t packets();
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Lines of all kinds to the control socket of an emulator with 64 clients: what the thread that
-// relays spends on each of them. The same thread relays in between, as in the program.
+// Lines of all kinds to the control socket of an emulator with 64 clients: measures the time that
+// the relaying thread spends on each line. This thread relays in between, as in the program.
 #include "emulator/control/request.hpp"
 #include "emulator/control_desk.hpp"
 #include "emulator/core/all_paths.hpp"
@@ -73,7 +73,7 @@ std::string set_of(const std::string& key, const std::string& value)
     return Json{{"command", "set"}, {"settings", {{key, value}}}}.dump();
 }
 
-/// What people send, and the longest and most tangled of what is allowed.
+/// Typical requests, and the longest and most complex ones that are allowed.
 std::vector<std::string> seeds()
 {
     std::vector<std::string> lines;
@@ -130,7 +130,7 @@ std::vector<std::string> seeds()
 std::string mutated(const std::vector<std::string>& all, std::mt19937_64& random)
 {
     const auto below = [&](std::size_t bound) { return bound == 0 ? 0 : random() % bound; };
-    // To read a long line takes the control desk a second: there are few of them.
+    // The control desk needs a second to read a long line, so there are few.
     constexpr std::size_t long_bytes = 10'000;
     constexpr std::size_t one_in = 500;
     const bool may_be_long = below(one_in) == 0;
@@ -156,7 +156,7 @@ std::string mutated(const std::vector<std::string>& all, std::mt19937_64& random
     return line;
 }
 
-/// The emulator, as far as it concerns its control.
+/// The parts of an emulator that its control needs.
 class Relay {
 public:
     explicit Relay(const std::string& socket)
@@ -175,7 +175,7 @@ public:
                                                        .netem = netem_profile}});
     }
 
-    /// Until it is told to end; each client sends a datagram every 10 ms.
+    /// Runs until it is told to end. Each client sends a datagram every 10 ms.
     void run()
     {
         desk_->begin();
@@ -212,7 +212,7 @@ public:
 
     std::atomic<bool> is_ending{false};
     std::atomic<std::int64_t> spent_ns{0};
-    std::atomic<std::int64_t> longest_ns{0}; // of a turn
+    std::atomic<std::int64_t> longest_ns{0}; // longest work between two rounds
     std::atomic<std::int64_t> turns{0};
 
 private:

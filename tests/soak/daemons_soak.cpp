@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_daemons round FOLDER PEERS KILLS: judges what daemons have written in one session in which
-// so many were killed: the records FOLDER/peer-ID.RUN.rec, the statistics FOLDER/peer-ID.json and
-// what `hapnet-lab analyse --json` says of the last runs, FOLDER/analysis.json. Prints a row for a
-// table, and each breach below it.
-// soak_daemons header: what stands above these rows.
-// soak_daemons emulator FILE: judges the statistics of the emulator between them.
-// Exits 0 when all is well, 1 after a breach, 2 when something cannot be read.
+// soak_daemons round FOLDER PEERS KILLS: judges the files of daemons in one session with KILLS
+// kills: the records FOLDER/peer-ID.RUN.rec, the statistics FOLDER/peer-ID.json and what
+// `hapnet-lab analyse --json` says of the last runs, FOLDER/analysis.json. Prints a row for a
+// table, and each breach below it. soak_daemons header: what stands above these rows. soak_daemons
+// emulator FILE: judges the statistics of the emulator between them. Exits 0 when all is well, 1
+// after a breach, 2 when something cannot be read.
 #include "proto/net/text_file.hpp"
 #include "tests/soak/round_judge.hpp"
 
@@ -48,7 +47,7 @@ std::uint64_t number_at(const Json& json, const char* pointer)
     return json.at(where).get<std::uint64_t>();
 }
 
-/// All of a round.
+/// The results of a round.
 struct Round {
     soak::Verdict sum;
     soak::Poses poses;
@@ -103,7 +102,7 @@ void add_statistics(Round& round, const fs::path& path)
     }
 }
 
-/// All that was written, and what it adds up to.
+/// Reads all files of a round, and combines them.
 Round round_in(const fs::path& folder)
 {
     std::vector<fs::path> paths;

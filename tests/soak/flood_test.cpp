@@ -88,8 +88,8 @@ public:
         print();
     }
 
-    /// Some were not delivered, which is counted. The kernel counts datagrams that it drops before
-    /// they are received (`overflowed`) as one when they were merged.
+    /// Some datagrams were dropped, and counted. When the kernel drops merged datagrams before they
+    /// are received (`overflowed`), it counts them as one.
     void expect_drops() const
     {
         const auto overflowed = statistics_["overflowed"].get<std::uint64_t>();
@@ -98,15 +98,15 @@ public:
         EXPECT_GE(received() + net::BatchSender::batch_max * overflowed, flooded_ + steady_);
     }
 
-    /// Nothing was dropped that is not counted one by one.
+    /// Expects that every drop was counted separately.
     void expect_all_counted() const
     {
         expect_drops();
         EXPECT_EQ(received(), flooded_ + steady_);
     }
 
-    /// p50 at most twice that before the flood, or 0.2 ms; p99 at most twice, or 1 ms: what the
-    /// scheduler of a shared or virtual machine does to 2000 datagrams. None is missing.
+    /// p50 at most twice that before the flood, or 0.2 ms; p99 at most twice, or 1 ms: the effect
+    /// of a shared or virtual machine's scheduler on 2000 datagrams. None is missing.
     void expect_normal_lateness_again() const
     {
         const auto before = lateness(0ms, flood_begin);
@@ -179,7 +179,7 @@ private:
                 base::ByteReader in{datagram.bytes};
                 const base::Duration at{in.i64()};
                 const base::TimePoint sent{base::Duration{in.i64()}};
-                // Of a copy the first counts: the second is sent later by as much as sending takes.
+                // The first arrival of a copied datagram counts. The copy is sent later.
                 if (seen_.insert(at).second) {
                     arrived_.push_back({at, datagram.at - sent - flood_.delay});
                 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// frame_flood NAME HOST PER_SECOND SECONDS: one end of a wire. Sends datagrams to port 7002 of the
-// host for so long, as many a second as it is told or, for 0, as it can, and reads what comes to
-// its own. Then prints "NAME sent N", and stays until a signal or for 2 s more.
+// frame_flood NAME HOST PER_SECOND SECONDS: one end of a wire. Sends PER_SECOND datagrams to port
+// 7002 of the host, or, for 0, as many as it can, and reads those that arrive. Then prints "NAME
+// sent N", and stays until a signal or for 2 s more.
 #include "proto/net/clock.hpp"
 #include "proto/net/endpoint.hpp"
 #include "proto/net/udp_socket.hpp"

@@ -43,7 +43,7 @@ protected:
         if (trial.exit == 3) GTEST_SKIP() << "no networks of one's own here: " << trial.err;
     }
 
-    /// Both ends send so much a second, 0: as much as they can. Expects the identity.
+    /// Both ends send at this rate; 0: as fast as they can. Expects the identity.
     static Flooded flooded(std::vector<std::string> conditions, std::int64_t per_second)
     {
         const auto seconds = std::max<std::int64_t>(3, setting("HAPNET_SOAK_ROW_SECONDS", 20) / 2);
@@ -97,7 +97,7 @@ private:
 
     static void expect_all_counted(const Flooded& result)
     {
-        // Besides datagrams the kernels say something by IPv6 now and then.
+        // Besides datagrams, the kernels send a few packets of IPv6.
         constexpr std::uint64_t others_max = 50;
         const auto& statistics = result.statistics;
         EXPECT_GT(result.sent_by_a, 0U);
@@ -116,8 +116,8 @@ private:
 
 } // namespace
 
-/// As much as both ends can send, under every kind of condition, and through a link that is too
-/// narrow for it.
+/// Both ends send as fast as they can, under every kind of condition, and through a link too narrow
+/// for it.
 TEST_F(FrameFlood, OfWhatBothEndsCanSendIsCounted)
 {
     const auto result =
@@ -139,7 +139,7 @@ TEST_F(FrameFlood, OfMoreThanTheMemoryHoldsIsCounted)
     EXPECT_GT(result.statistics["up"]["dropped"]["queue_full"], 0);
 }
 
-/// What the emulator can take: nothing is missing.
+/// A rate that the emulator can take: nothing is missing.
 TEST_F(FrameFlood, AStreamThatItCanTakeArrivesWhole)
 {
     const auto result = flooded({"--delay", "20ms"}, 5000);

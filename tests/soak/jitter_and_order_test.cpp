@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What jitter and order do to 1000 datagrams a second, on real sockets, against `hapnet-emulator
+// Compares jitter and order of 1000 datagrams a second, on real sockets, with `hapnet-emulator
 // predict`. HAPNET_SOAK_ROW_SECONDS for each row (default 20), five rows at a time.
 #include "proto/net/clock.hpp"
 #include "proto/net/real_time.hpp"
@@ -56,7 +56,7 @@ const std::vector<Row>& rows()
     return all;
 }
 
-/// What a row of the table says.
+/// The figures of a row of the table.
 struct Outcome {
     double added_ms = 0.0; // to the mean, by order and lateness
     double sd_ms = 0.0;
@@ -95,11 +95,11 @@ void print(const Row& row, const Outcome& expected, const Outcome& actual, const
                up.at("lateness_us").at("p99").get<double>());
 }
 
-/// Equal seeds and counts draw the same delays, so sampling is no error here: what differs is the
-/// timing. The correlated rows draw the same noise too, and how much of it enters follows the
-/// arrivals, which are 1 ms apart but for the sender's own error. As samples of their law they
-/// are small: 20 s hold 20 s / (2 x 100 ms) = 100 independent draws. Measured in November 2026 on
-/// two cores with SCHED_FIFO: means within 0.017 ms, sd within 0.012 ms, shares within 0.2 %.
+/// Equal seeds and counts draw the same delays, so only the timing differs, not the sample. The
+/// correlated rows draw the same noise too, and how much of it enters follows the arrivals, which
+/// are 1 ms apart but for the sender's own error. As samples of their law they are small: 20 s hold
+/// 20 s / (2 x 100 ms) = 100 independent draws. Measured on two cores with SCHED_FIFO: means within
+/// 0.017 ms, sd within 0.012 ms, shares within 0.2 %.
 void expect_equal(const Outcome& expected, const Outcome& actual)
 {
     constexpr double timing_ms = 0.15; // for machines that are busy
@@ -110,8 +110,8 @@ void expect_equal(const Outcome& expected, const Outcome& actual)
     EXPECT_NEAR(actual.clumped, expected.clumped, share);
 }
 
-/// One datagram a millisecond to each emulator, evenly apart. On a thread that comes before the
-/// emulators' where the system allows it: what the sender does late is no fault of theirs.
+/// Sends one datagram each millisecond to each emulator. Its thread has a higher priority than the
+/// emulators, if the system allows it, so that they are not blamed for its lateness.
 void send(e2e::Host& a, const std::list<e2e::Emulator>& emulators, std::int64_t packets)
 {
     std::ignore = net::request_real_time(50);
@@ -126,11 +126,11 @@ void send(e2e::Host& a, const std::list<e2e::Emulator>& emulators, std::int64_t 
     }
 }
 
-/// The machine has stopped the emulator for so long that the row says nothing: a stop of T ms adds
-/// T^3 / 3 ms^2 to the sum of squares, at 10 ms and 5000 datagrams 0.07 ms^2 to the variance.
+/// True if the machine stopped the emulator for so long that the row says nothing: a stop of T ms
+/// adds T^3 / 3 ms^2 to the sum of squares, at 10 ms and 5000 datagrams 0.07 ms^2 to the variance.
 bool is_spoilt(const json& up) { return up.at("lateness_us").at("max").get<double>() > 10'000.0; }
 
-/// Gives back the rows that were spoilt.
+/// Returns the spoilt rows.
 std::vector<Row> compare(const std::vector<Row>& batch, std::int64_t packets)
 {
     const e2e::TemporaryFolder folder;

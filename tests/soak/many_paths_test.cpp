@@ -30,7 +30,7 @@ constexpr std::int64_t each_way_per_second = 10'000;
 
 constexpr std::int64_t warm_up_seconds = 20;
 
-/// The rows of fates that wait for their turn, of all paths together, come and go; and 1 MiB.
+/// The queued rows of fates of all paths vary; and 1 MiB.
 constexpr std::int64_t growth_max_kib = 4096 + 1024;
 
 const std::vector<std::string>& conditions()
@@ -102,9 +102,8 @@ private:
     std::optional<e2e::Process> process_;
 };
 
-/// Expects that nothing is allocated any more. What is resident may grow within what was reserved
-/// at the start: the ring in which datagrams wait for the rate is used once around, and each path
-/// has few datagrams.
+/// Expects that no more memory is allocated. Resident memory may grow within the reserved amount:
+/// the ring in which datagrams wait for the rate is filled once, and each path has few datagrams.
 void expect_no_allocation(const std::vector<Memory>& memory)
 {
     std::int64_t most = 0;
@@ -114,7 +113,7 @@ void expect_no_allocation(const std::vector<Memory>& memory)
     EXPECT_LT(most - memory.front().data, growth_max_kib);
 }
 
-/// Nothing is lost that is not counted: on each path, in the sums, and as the senders count.
+/// Expects that every loss is counted: on each path, in the sums, and by the senders' counts.
 void expect_accounted(const json& statistics, const json& paths, std::uint64_t sent)
 {
     std::uint64_t received = 0;

@@ -64,7 +64,7 @@ down.delay = "30ms"
 down.corrupt = "5%"
 )";
 
-/// What a person does to it again and again, once a second.
+/// Changes that a person makes repeatedly, once a second.
 std::vector<std::vector<std::string>> changes(const std::string& ramped_profile)
 {
     return {{"set", "both.delay", "50ms", "up.loss", "3%", "--for", "1500ms"},

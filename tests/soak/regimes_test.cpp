@@ -80,7 +80,7 @@ double lost_share(const MeasuredWay& way)
            static_cast<double>(way.lost.size());
 }
 
-/// Prints a figure of both, and expects that they are so near.
+/// Prints a figure of both, and expects that they differ by no more than this.
 void expect_near(const char* name, double is, double expected, double most)
 {
     fmt::print("  regimes, {:28} live {:8.3f}, in virtual time {:8.3f}\n", name, is, expected);
@@ -89,8 +89,8 @@ void expect_near(const char* name, double is, double expected, double most)
 
 } // namespace
 
-/// Equal seeds give equal stays and equal draws. What differs is the moment at which the sender
-/// begins, some 0.1 s after the emulator, and the time that real datagrams take, about 0.1 ms.
+/// Equal seeds give equal stays and draws. Differences come from the moment at which the sender
+/// begins, some 0.1 s after the emulator, and from the time that real datagrams take, about 0.1 ms.
 TEST(Regimes, DoLiveWhatTheyDoInVirtualTime)
 {
     const auto packets = static_cast<std::size_t>(3000 * setting("HAPNET_SOAK_ROW_SECONDS", 20));

@@ -20,15 +20,15 @@ using namespace std::chrono_literals;
 using device::GovernorState;
 using record::Phase;
 
-// As in peer::Staleness: a state holds, fades, and does not count any more.
+// As in peer::Staleness: a state holds, fades, and then no longer counts.
 constexpr base::Duration holds = 250ms;
 constexpr base::Duration fades = 50ms;
 constexpr int fade_ticks = 50;
 constexpr base::Duration tick = 1ms;
-// As peer::Others::gone_after: then the others play on, and the governor needs 50 ms to let them.
+// As peer::Others::gone_after. The others then play on, after 50 ms for the governor.
 constexpr base::Duration gone = 1s;
 constexpr base::Duration ramped = gone + 100ms;
-// Longer than any run of lost states: the peer has died.
+// Longer than any run of lost states, so the peer has died.
 constexpr base::Duration silence_least = 350ms;
 constexpr std::size_t ticks_to_judge = 50;
 constexpr double played_share = 0.9;
@@ -39,7 +39,7 @@ constexpr base::Duration settles = 2s;
 
 double ms(base::Duration length) { return 1e3 * base::to_seconds(length); }
 
-/// Another peer, as this one heard it last.
+/// The last state of another peer, as this peer received it.
 struct Heard {
     std::uint32_t session = 0;
     std::uint32_t sequence = 0;
@@ -48,7 +48,7 @@ struct Heard {
     double force_n = 0.0; // along x, on the body
 };
 
-/// Since the last state of another peer has held long enough.
+/// The time after the last state of another peer has held long enough.
 struct Silence {
     int ticks = 0;
     bool is_counted = false;      // among those that died
@@ -150,7 +150,7 @@ void Judge::look_at_silence(const record::TickRow& row, std::uint16_t id, base::
     }
     if (touched && age < gone && base::norm(row.device) > 0.0) {
         verdict_.felt_max_ms = std::max(verdict_.felt_max_ms, ms(age));
-        // In ticks, as a busy machine may leave some out: each takes its share of the force away.
+        // In ticks, as a busy machine may skip some: each tick reduces the force by its share.
         if (silence.ticks > fade_ticks)
             breach("tick {}: {:.3f} N are felt {:.1f} ms after the last word of {}, which touched",
                    row.tick, base::norm(row.device), ms(age), id);
@@ -159,7 +159,7 @@ void Judge::look_at_silence(const record::TickRow& row, std::uint16_t id, base::
     if (age > ramped) look_whether_it_plays_on(row, id);
 }
 
-/// The others' forces that this peer says it counted must be those of the others that are heard.
+/// Expects that the forces counted by this peer are the sum of those of the peers that are heard.
 void Judge::look_whether_it_counts(const record::TickRow& row, std::uint16_t id, base::Duration age)
 {
     if (!heard_[id].touching || std::abs(heard_[id].force_n) < force_rounding_n) return;
@@ -167,7 +167,7 @@ void Judge::look_whether_it_counts(const record::TickRow& row, std::uint16_t id,
     for (const auto& [other, heard] : heard_) {
         const base::Duration other_age = row.at() - heard.arrived;
         if (other == id || other_age >= holds + fades) continue;
-        if (other_age > holds) return; // it fades at this moment
+        if (other_age > holds) return; // its force fades at this moment
         if (heard.touching) of_the_heard_n += heard.force_n;
     }
     if (std::abs(row.remote.x() - of_the_heard_n) < force_rounding_n) return;

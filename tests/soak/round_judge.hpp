@@ -17,29 +17,29 @@
 
 namespace hapnet::soak {
 
-/// What one record says of a peer among others that are killed and come back.
+/// The verdict on the record of one peer among others that are killed and come back.
 struct Verdict {
     std::int64_t peer = 0;
     double hands_on_s = 0.0;
     std::size_t silences = 0;      // of another peer, for 0.35 s or more with hands on
-    std::size_t died_touching = 0; // of these, where its hand was on the body at last
+    std::size_t died_touching = 0; // of these, the hand was on the body in the last state
     double counted_max_ms = 0.0;   // after the last state of a silent one, its force still counted
-    double felt_max_ms = 0.0;      // likewise, and this hand felt a force although that one touched
-    std::size_t played_on = 0;     // of the silences longer than a second
-    std::size_t lasted = 0;        // those
-    double force_max_n = 0.0;      // that the device was told
+    double felt_max_ms = 0.0;      // as above, for force felt by this hand while that one touched
+    std::size_t played_on = 0;     // of the silences longer than a second, in how many it played on
+    std::size_t lasted = 0;        // silences longer than a second
+    double force_max_n = 0.0;      // force given to the device
     bool was_at_fault = false;     // the governor held it at zero: a machine that stood still
     std::vector<std::string> breaches;
 };
 
-/// Judges a record by its own rows and the states in it, without the code that the daemon ran:
-/// from 300 ms after the last state of another one its force must not be among those that this peer
-/// counted, and if its hand touched, this hand must feel nothing until that one is heard again or
-/// has been silent for a second; then, with three peers or more, this one must play on. Forces must
-/// be finite and within the limit. For the algorithm `base`.
+/// Judges a record by its own rows and its states, without the daemon's code. From 300 ms after the
+/// last state of another peer, this peer must not count that peer's force. If that peer's hand
+/// touched, this hand must feel nothing until the peer is heard again or was silent for a second.
+/// Then, with three peers or more, this peer must continue. Forces must be finite and within the
+/// limit. For the algorithm `base`.
 [[nodiscard]] base::Result<Verdict> judge(const record::Record& record);
 
-/// Where a peer has a body after hands off, by the last state of it that another one recorded.
+/// The place of a body after hands off in one peer's copy, by the peer's last recorded state.
 struct Pose {
     base::Position position;
     std::optional<glm::dquat> orientation; // of a body that can turn
@@ -47,10 +47,10 @@ struct Pose {
 /// By the number of the body and the id of the peer that has it there.
 using Poses = std::map<std::uint16_t, std::map<std::uint16_t, Pose>>;
 
-/// Adds the poses that stand in this record.
+/// Adds the poses in this record.
 void add_poses(Poses& poses, const record::Record& record);
 
-/// How far apart the copies are, over all bodies and any two peers.
+/// The largest differences of copies, over all bodies and any two peers.
 struct Apart {
     std::size_t copies = 0; // compared, of the body with the fewest
     double distance_mm = 0.0;

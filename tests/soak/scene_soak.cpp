@@ -61,7 +61,7 @@ void report(const Tally& tally)
     std::fflush(stdout);
 }
 
-/// What the plays of one everyday kind came to.
+/// The results of the plays of one everyday kind.
 struct EverydayTally {
     std::uint64_t above = 0;     // plays that gain more than 1e-4 of their scale
     std::uint64_t far_above = 0; // ... more than 1 %
@@ -96,7 +96,7 @@ EverydayTally play_kind(hapnet::test::Everyday kind, std::uint64_t first, std::u
 bool play_everyday_kinds(std::uint64_t first, std::uint64_t count, hapnet::base::Duration tick)
 {
     using hapnet::test::Everyday;
-    // Of a thousand plays: at 4 ms and of very unequal masses some may gain a little.
+    // In a thousand plays at 4 ms, or of very unequal masses, a few may gain a little.
     const bool is_coarse = tick > std::chrono::milliseconds{2};
     bool all_kept = true;
     for (std::size_t i = 0; i < hapnet::test::everyday_kinds; ++i) {

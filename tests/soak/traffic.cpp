@@ -116,7 +116,7 @@ void Traffic::run(Target target)
         const auto ticks = (tick - start) / 1ms + 1;
         const auto extra = (beginning_factor - 1) * std::min(ticks, beginning / 1ms);
         const auto behind = (ticks + extra) * per_tick - static_cast<std::int64_t>(number_);
-        // What a pause left behind is made up for, but never faster than the beginning was.
+        // A backlog after a pause is sent faster, but never faster than at the beginning.
         const auto most = (is_beginning ? beginning_factor : beginning_factor / 2) * per_tick;
         send(target, static_cast<std::uint64_t>(std::min(behind, most)));
         drain(target);

@@ -21,7 +21,7 @@ namespace hapnet::soak {
 /// std::invalid_argument when it is no number.
 [[nodiscard]] std::int64_t setting(const char* name, std::int64_t usual);
 
-/// What a running program has of memory, in KiB.
+/// The memory of a running program, KiB.
 struct Memory {
     std::int64_t resident = 0; // VmRSS
     std::int64_t data = 0;     // VmData: heap, stacks and other private memory, used or not
@@ -29,7 +29,7 @@ struct Memory {
 /// Throws std::runtime_error when there is no such program.
 [[nodiscard]] Memory memory_of(pid_t pid);
 
-/// A line of what a soak prints.
+/// A line of a soak's output.
 [[nodiscard]] std::string line(std::int64_t seconds, const Memory& memory);
 
 /// Expects that nothing grows after the first minute, or fifth when that is shorter: by then each
@@ -56,14 +56,14 @@ public:
     [[nodiscard]] net::Endpoint a() const { return a_.front()->local(); }
     [[nodiscard]] net::Endpoint b() const { return b_.local(); }
 
-    /// Begins to send so many datagrams a second each way, to where the emulator listens, to one
-    /// place after the other. B sends to all that it hears from if there are no places for it.
+    /// Begins to send this many datagrams a second each way, to the emulator's places in turn. B
+    /// sends to all that it hears from if there are no places for it.
     void start(std::int64_t per_second, std::vector<net::Endpoint> for_a,
                std::vector<net::Endpoint> for_b);
-    /// Ends when what is in the emulator has had the time to leave it.
+    /// Ends once the emulator has had time to send all datagrams.
     void stop();
 
-    /// What the kernel has taken for the emulator: of A and B together.
+    /// Datagrams that the kernel took for the emulator, from A and B together.
     [[nodiscard]] std::uint64_t sent() const { return sent_.load(std::memory_order_relaxed); }
 
 private:

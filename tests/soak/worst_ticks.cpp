@@ -20,7 +20,7 @@ constexpr std::size_t ticks_printed = 20;
 constexpr int repeats = 5;
 constexpr double limit_us = 100.0;
 
-/// About what it costs, in ns: to choose by, and not to judge by.
+/// A rough cost, in ns, for choosing scenes, not for judging them.
 double weight(const scene::TickCost& cost)
 {
     return 100.0 * static_cast<double>(cost.pairs) + 300.0 * static_cast<double>(cost.contacts) +

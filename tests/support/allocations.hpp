@@ -6,8 +6,8 @@
 
 namespace hapnet::test {
 
-/// The number of times that this program has taken memory with new so far. Linking it replaces the
-/// global operator new; under a sanitizer it counts malloc(), too.
+/// The number of memory allocations by new in this program so far. Linking it replaces the global
+/// operator new. Under a sanitizer it counts malloc(), too.
 [[nodiscard]] std::uint64_t allocations();
 
 } // namespace hapnet::test

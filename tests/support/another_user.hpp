@@ -16,7 +16,7 @@ inline constexpr uid_t another_user = 47'110;
 
 inline bool is_root() { return geteuid() == 0; }
 
-/// What `work` gives, 0 to 255, in a child process of that user; nullopt if it cannot be done.
+/// Returns the result of `work`, 0 to 255, in a child process of that user; nullopt on failure.
 template <typename Work>
 std::optional<int> as_user(uid_t user, const Work& work)
 {

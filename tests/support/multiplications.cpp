@@ -11,7 +11,7 @@ std::atomic<std::uint64_t> multiplied{0};
 
 } // namespace
 
-// What these two do in libsodium, and a count.
+// Count, and do the same as the two functions of libsodium.
 extern "C" int crypto_scalarmult(unsigned char* product, const unsigned char* number,
                                  const unsigned char* point)
 {

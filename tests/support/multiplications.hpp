@@ -6,8 +6,8 @@
 
 namespace hapnet::test {
 
-/// How often this program has multiplied on the curve of the handshakes so far. Linking it replaces
-/// libsodium's crypto_scalarmult() and crypto_scalarmult_base(), which are all that
+/// The number of this program's multiplications on the handshakes' curve so far. Linking it
+/// replaces libsodium's crypto_scalarmult() and crypto_scalarmult_base(), which are all that
 /// proto/secure/primitives.cpp calls for that.
 [[nodiscard]] std::uint64_t multiplications();
 

@@ -9,7 +9,7 @@
 
 namespace hapnet::test {
 
-/// What an element of JSON in a page holds.
+/// Returns the JSON that an element of a page contains.
 inline nlohmann::ordered_json json_in(std::string_view page, std::string_view id)
 {
     const std::string opening = "<script type=\"application/json\" id=\"" + std::string{id} + "\">";

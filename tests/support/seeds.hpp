@@ -12,8 +12,8 @@ inline constexpr bool is_sanitized = true;
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// So many seeds of a test that plays each in the same way: under sanitizers, where each takes
-/// many times as long, a sixteenth of them.
+/// The number of seeds for a test that plays each in the same way: `all`, or a sixteenth under
+/// sanitizers, which take many times as long.
 constexpr std::uint64_t seeds(std::uint64_t all) { return is_sanitized ? all / 16 + 1 : all; }
 
 } // namespace hapnet::test

@@ -12,7 +12,7 @@
 
 namespace hapnet::test {
 
-/// What a cell of CSV looks like: nothing, a flag, a number or a text.
+/// Returns the cell that a text of CSV looks like: nothing, a flag, a number or a text.
 inline lab::results::Cell cell_from_csv(const std::string& text)
 {
     if (text.empty()) return {};

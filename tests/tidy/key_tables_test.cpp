@@ -40,7 +40,7 @@ namespace {
 using base::KeyRow;
 using Rows = std::vector<KeyRow>;
 
-/// What a page has between "<!-- keys: NAME -->" and "<!-- end keys -->".
+/// The text of a page between "<!-- keys: NAME -->" and "<!-- end keys -->".
 struct KeyTable {
     std::string name;
     std::string text;
@@ -52,7 +52,7 @@ Rows operator+(Rows rows, const Rows& more)
     return rows;
 }
 
-/// The keys of an algorithm without those that all have.
+/// The keys of an algorithm without the common ones.
 template <typename Options>
 Rows own_rows()
 {
@@ -65,7 +65,7 @@ Rows own_rows()
     return rows;
 }
 
-/// Of the keys that stand in a table of their own.
+/// The keys that stand in a table of their own.
 template <typename Struct>
 std::string prefix()
 {
@@ -135,7 +135,7 @@ std::string rows_of()
     return base::markdown((base::key_rows<Structs>() + ...));
 }
 
-/// Of what programs print.
+/// The tables of the programs' outputs.
 std::vector<KeyTable> tables_of_outputs()
 {
     return {
@@ -222,7 +222,7 @@ const std::vector<KeyTable>& tables()
     return all;
 }
 
-/// Described structs without a table of their own: parts of those above, and what no person writes.
+/// Described structs without a table of their own: parts of the above, and texts of programs.
 const std::set<std::string>& without_table()
 {
     static const std::set<std::string> names{
@@ -291,7 +291,7 @@ std::string marked(std::string_view line)
     return std::string{line.substr(mark.size(), line.size() - mark.size() - mark_end.size())};
 }
 
-/// The page as it ought to be; complains where it is not.
+/// Returns the corrected page, and complains where it differs.
 std::string corrected(const SourceFile& page, std::set<std::string>& found)
 {
     std::string text;

@@ -46,7 +46,7 @@ std::vector<std::string> targets_of(std::string_view line)
     return targets;
 }
 
-/// What stands in backquotes in a line.
+/// The texts in backquotes of a line.
 std::vector<std::string> code_of(std::string_view line)
 {
     std::vector<std::string> code;
@@ -66,7 +66,7 @@ bool is_path(std::string_view name)
     });
 }
 
-/// Where a link of a page leads, from the root.
+/// The target of a page's link, from the root.
 std::string resolved(std::string_view page, std::string_view path)
 {
     const auto folder = std::filesystem::path{page}.parent_path();

@@ -30,7 +30,7 @@ std::size_t characters(std::string_view text)
     }));
 }
 
-/// Whether the line holds the word, not as the end of a longer one.
+/// True if the line contains the word, but not as the end of a longer word.
 bool holds(std::string_view line, std::string_view word)
 {
     for (auto at = line.find(word); at != std::string_view::npos; at = line.find(word, at + 1)) {
@@ -121,7 +121,7 @@ void add_sources_named_in(const SourceFile& cmake, std::set<std::string>& paths)
     }
 }
 
-/// Whether one of the folders that a CMakeLists.txt names holds it.
+/// True if the file is in one of the folders that a CMakeLists.txt names.
 bool is_in_folder_of(const std::set<std::string>& paths, std::string_view path)
 {
     for (auto end = path.rfind('/'); end != std::string_view::npos;) {
@@ -253,7 +253,7 @@ std::vector<std::string> wrong_namespaces(const SourceFile& file)
         const std::string& line = file.lines[i];
         if (!line.starts_with(opening)) continue;
         const std::string name = line.substr(10, line.find_first_of(" {", 10) - 10);
-        // What is nested deeper than the folder is the file's own affair.
+        // Namespaces nested deeper than the folder are up to the file.
         if ((name + "::").starts_with(longest) || longest.starts_with(name + "::")) continue;
         complaints.push_back(
             at(i, name + " in a folder for " + longest.substr(0, longest.size() - 2)));

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is built or recorded lies at the top, as .gitignore has it, and what
-/// npm installs beside tests; docs/results is of the project.
+/// Built and recorded files are at the top, as in .gitignore, and npm's are beside tests.
+/// docs/results belongs to the project.
 bool is_left_out(const fs::recursive_directory_iterator& folder)
 {
     const auto name = folder->path().filename().string();

@@ -80,7 +80,7 @@ const SourceFile& file_at(std::string_view path)
     return *found;
 }
 
-/// Where words that are not used any more are told of.
+/// True for files that may name retired words.
 bool is_history(const SourceFile& file)
 {
     return file.path == "docs/GLOSSARY.md" || file.path == "CHANGELOG.md" || file.is_in("docs/adr");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The version is that of project() in CMakeLists.txt. What no build writes repeats it.
+// The version is that of project() in CMakeLists.txt. Files that no build writes repeat it.
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::string text_of(const std::string& path)
     return '\n' + std::string{std::istreambuf_iterator<char>{file}, {}};
 }
 
-/// What stands between the first `before` and the `after` that follows it.
+/// The text between the first `before` and the next `after`.
 std::string between(const std::string& text, const std::string& before, const std::string& after)
 {
     const auto found = text.find(before);

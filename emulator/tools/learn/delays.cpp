@@ -93,8 +93,8 @@ public:
     }
 
 private:
-    /// Tries laws that begin at `least` and earlier, because their beginning is not one of their
-    /// parameters.
+    /// Fits laws that begin at `least`, and laws that begin earlier. Where a law begins is not one
+    /// of its parameters.
     void try_before(double least)
     {
         for (const double back : {0.0, 0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2}) {

@@ -26,7 +26,7 @@ WAYS = ("up", "down", "both")
 TASKS = tuple(f"T{i}" for i in range(1, 7)) + ("P1",)
 LEVELS_MAX, REPETITIONS_MAX, TRIALS_MAX = 50, 1000, 10_000
 FILE_BYTES_MAX = 1 << 20
-KEYS = {  # of a table, by what stands before them
+KEYS = {  # keys of a table, by its name
     "": ("title", "factor", "levels", "staircase", "reference", "question", "noticed",
          "two_intervals", "repetitions", "blocks", "break", "catch_trials", "task", "duration",
          "algorithm", "scene", "conditions", "seed", "observer"),

@@ -14,10 +14,10 @@ from hapnet.study.design import Design, Observer
 from hapnet.study.observer import Simulated
 from hapnet.study.plan import Plan, Trial
 
-START_S = 2.0  # of a session, until its common start, with the check of its records
+START_S = 2.0  # time until a session's common start, with the check of its records
 ANSWER_S = 3.0
 MEGABYTES_PER_S = 0.8  # the records of both peers
-SIMULATED = 41  # observers, whose median is told
+SIMULATED = 41  # observers; their median is shown
 
 
 def played(design: Design, participant: int) -> list[Trial]:

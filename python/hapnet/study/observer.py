@@ -91,7 +91,7 @@ class Person:
 
     def _line(self, prompt: str) -> str:
         if sys.stdin.isatty():
-            termios.tcflush(sys.stdin, termios.TCIFLUSH)  # what was typed before the question
+            termios.tcflush(sys.stdin, termios.TCIFLUSH)  # text typed before the question
         print(prompt, end="", flush=True)
         line: Optional[str] = sys.stdin.readline()
         if not line:

@@ -18,7 +18,7 @@ from hapnet.process import ProgramFailed, run
 from hapnet.study.design import Design, DesignError
 from hapnet.study.plan import Trial
 
-LATER_S = 30.0  # what a session may take beyond its duration
+LATER_S = 30.0  # extra time of a session beyond its duration
 EVERY_S = 0.05
 
 

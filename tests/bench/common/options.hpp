@@ -15,13 +15,13 @@
 
 namespace hapnet::bench {
 
-/// What a bench was told: --quick, and which files to write, by their options' names.
+/// The options of a bench: --quick, and the files to write, by their options' names.
 struct Options {
     bool quick = false;
     std::map<std::string, std::string> files;
 };
 
-/// What a bench is called, what it says to --help, and its options that take a file each.
+/// The name of a bench, its --help text, and its options that take a file each.
 struct Bench {
     std::string_view program;
     std::string_view usage;
@@ -49,8 +49,8 @@ struct Bench {
     return options;
 }
 
-/// The files that were asked for, opened before anything is measured, so that a place where
-/// nothing can be written is noticed at once.
+/// The requested files, opened before any measurement, so that a place that cannot be written is
+/// noticed at once.
 class Files {
 public:
     explicit Files(const Options& options)
@@ -69,7 +69,7 @@ private:
     std::map<std::string, disk::ResultFile> files_;
 };
 
-/// The program of a bench: the exit code of `measure`, which takes Options.
+/// Runs a bench: returns the exit code of `measure`, which takes Options.
 template <typename Measure>
 [[nodiscard]] int main_of(const Bench& bench, std::span<char*> words, Measure measure)
 {

@@ -54,7 +54,7 @@ std::optional<bool> Row::met() const
 {
     if (!target) return std::nullopt;
     const bool is_ratio = metric.ends_with("_ratio");
-    // Nothing is less than nothing: a value of 0 stands above any ratio to it.
+    // The ratio of a baseline to 0 is infinite, so it is above any target.
     if (is_ratio && baseline_value && value == 0.0) return direction == Direction::at_least;
     const auto judged = is_ratio ? ratio() : std::optional{value};
     if (!judged) return false;

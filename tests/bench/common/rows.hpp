@@ -12,14 +12,14 @@
 
 namespace hapnet::bench {
 
-/// Which side of a target is good.
+/// The side of a target that is good.
 enum class Direction : std::uint8_t { at_least, at_most };
 
-/// A number, what it is compared with, and what it has to reach.
+/// A number, the baseline that it is compared with, and its target.
 struct Row {
-    std::string name;     // of the case: "1 kpps, 10 ms, real-time"
+    std::string name;     // name of the case: "1 kpps, 10 ms, real-time"
     std::string subject;  // "hapnet-emulator precise"
-    std::string baseline; // "" for none
+    std::string baseline; // "": there is no baseline
     std::string metric;   // with its unit: "p50_us"; "p50_ratio": the target is for the ratio
     double value = 0.0;
     std::optional<double> baseline_value;
@@ -32,7 +32,7 @@ struct Row {
     [[nodiscard]] std::optional<bool> met() const;
 };
 
-/// Puts more at the end.
+/// Appends rows.
 inline void append(std::vector<Row>& rows, const std::vector<Row>& more)
 {
     rows.insert(rows.end(), more.begin(), more.end());

@@ -8,7 +8,7 @@
 
 namespace hapnet::bench {
 
-/// The machine, of which this thread has one processor for itself as far as it is allowed to.
+/// Returns the machine, and keeps one of its processors for this thread as far as that is allowed.
 [[nodiscard]] inline Host alone(std::string_view program)
 {
     Host machine = host();
@@ -19,8 +19,8 @@ namespace hapnet::bench {
     return machine;
 }
 
-/// The program of a bench on one thread that prints rows, and writes them where --json says: its
-/// exit code. `measure` takes whether it must end within seconds and gives the rows.
+/// Runs a bench on one thread that prints rows, and writes them where --json says. Returns its exit
+/// code. `measure` takes whether it must end within seconds, and returns the rows.
 template <typename Measure>
 [[nodiscard]] int rows_main(std::string_view program, std::string_view usage,
                             std::span<char*> words, Measure measure)

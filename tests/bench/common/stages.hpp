@@ -13,8 +13,8 @@
 
 namespace hapnet::bench {
 
-/// Says on stderr what a long bench is at: on a terminal each detail in one line that is written
-/// again and again, else a line for each stage.
+/// Prints the progress of a long bench on stderr: on a terminal one line that changes with each
+/// detail, otherwise one line per stage.
 class Stages {
 public:
     Stages(std::string_view program, int stages) : program_{program}, stages_{stages} {}
@@ -31,7 +31,7 @@ public:
         else
             fmt::print(stderr, "{}\n", text({}));
     }
-    /// What of the stage comes now.
+    /// Prints the next detail of the stage.
     void detail(std::string_view what)
     {
         if (!line_.is_terminal()) return;

@@ -16,7 +16,7 @@ namespace hapnet::bench {
     return net::monotonic_now().time_since_epoch().count();
 }
 
-/// Of some values, which are put into another order; there is at least one.
+/// Returns a quantile of at least one value. Changes the order of the values.
 [[nodiscard]] inline double quantile(std::vector<double>& values, double share)
 {
     const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -24,7 +24,7 @@ namespace hapnet::bench {
     return values[static_cast<std::size_t>(at)];
 }
 
-/// What reading the clock twice costs: part of every time that is measured, and none of it.
+/// The cost of reading the clock twice, ns, which is part of every measured time.
 [[nodiscard]] inline double clock_cost_ns()
 {
     std::vector<double> costs(1000);

@@ -10,7 +10,7 @@ namespace hapnet::bench {
 namespace {
 
 constexpr int turns_a_block = 1000;
-constexpr double target_us = 10.0; // of a tick of 1000
+constexpr double target_us = 10.0; // 1 % of a tick of 1 ms
 
 } // namespace
 

@@ -8,8 +8,8 @@
 
 namespace hapnet::bench {
 
-/// What a tick of the servo costs between the device's bytes and the network's, beside the same
-/// tick without governor and kinematics. They take turns in blocks of a thousand, `blocks` each.
+/// The cost of a servo tick between the bytes of device and network, beside the same tick without
+/// governor and kinematics. They take turns in `blocks` blocks of a thousand ticks each.
 [[nodiscard]] std::vector<Row> measure_overhead(int blocks);
 
 } // namespace hapnet::bench

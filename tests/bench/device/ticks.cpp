@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double radians_per_count = base::two_pi / 15000.0;
-constexpr double push_m = 0.002; // each hand presses so deep into the cube
+constexpr double push_m = 0.002; // depth to which each hand presses into the cube
 constexpr double sway_m = 0.020; // and goes to and fro with it
 constexpr double sway_hz = 0.25;
 
@@ -31,7 +31,7 @@ peer::Hand hand_at(std::size_t side, base::TimePoint now)
     return {.hip = {{cube_x(now) + (side == 0 ? -away : away), 0.0, 0.0}}, .velocity = {}};
 }
 
-/// Says in counts where the hand of the left peer is, as three encoders would.
+/// Reports the place of the left peer's hand in counts, as three encoders would.
 class EncodedHand final : public device::Device {
 public:
     explicit EncodedHand(Load load) : load_{load}
@@ -54,7 +54,7 @@ public:
         const peer::Hand hand = hand_at(0, now);
         sample.hip = hand.hip;
         if (load_ == Load::contact) return sample;
-        // The same place again, by way of the arm: what its counts say, and how fast it moves.
+        // The same place, computed through the arm: the place of its counts, and its velocity.
         const base::Displacement off =
             device::omni::position_of({counts_now()}) - device::omni::position_of({});
         sample.hip = hand.hip + 1e-6 * off;
@@ -91,7 +91,7 @@ peer::Settings settings_of(std::size_t side)
     return settings;
 }
 
-/// The force goes as it comes.
+/// A rig that applies the force unchanged.
 class UngovernedRig {
 public:
     explicit UngovernedRig(device::Device& device) : device_{device} {}

@@ -12,15 +12,15 @@
 
 namespace hapnet::bench {
 
-/// The servo's work in a tick between the device's bytes and the network's, with or without what
-/// a real device adds to it.
+/// The work of the servo in a tick between the bytes of the device and those of the network, with
+/// or without the additional work for a real device.
 enum class Load : std::uint8_t {
-    contact,  // the scene alone: the force goes as it comes
+    contact,  // the scene alone: the force is applied unchanged
     governed, // from encoder counts to a place, and through the governor with the joints' torques
 };
 
-/// Two peers that carry the cube to and fro between them, T3's way, and whose ticks are timed on
-/// one side.
+/// Two peers that carry the cube to and fro between them, as in T3. The ticks of one side are
+/// timed.
 class Ticks {
 public:
     explicit Ticks(Load load);
@@ -28,10 +28,10 @@ public:
 
     /// A reading of a clock, in nanoseconds.
     using Clock = std::function<std::int64_t()>;
-    /// Plays this number of ticks; the nanoseconds that each took.
+    /// Plays this number of ticks, and appends the nanoseconds of each.
     void play(int ticks, const Clock& clock, std::vector<double>& nanoseconds);
 
-    /// The force that was felt last: work that cannot be left out.
+    /// The last force felt. Using it keeps the compiler from removing the work.
     [[nodiscard]] base::Force felt() const { return side_.told(); }
     [[nodiscard]] const device::Governor& governor() const { return rig_.governor(); }
 

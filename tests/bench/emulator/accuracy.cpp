@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What an emulated path is asked for.
+/// The settings of an emulated path.
 struct Case {
     Standing standing = Standing::real_time;
     double rate = 1000.0;
@@ -34,11 +34,11 @@ struct Case {
     }
 };
 
-/// One trial in numbers; microseconds.
+/// The figures of one trial, microseconds.
 struct Numbers {
     double p50 = 0.0;
     double p99 = 0.0;
-    double p99_beside = 0.0; // of those beside whose departure another one arrived
+    double p99_beside = 0.0; // of datagrams near whose departure another one arrived
     double p999 = 0.0;
     double max = 0.0;
     double min = 0.0;
@@ -119,7 +119,7 @@ public:
 private:
     [[nodiscard]] std::vector<Subject> subjects() const
     {
-        // The other two modes are compared where all are.
+        // Only the case of 10 ms in real time compares all timing modes.
         if (case_.delay != 10ms || case_.standing == Standing::ordinary) {
             return {precise, poll_relay, timerfd_relay};
         }
@@ -185,7 +185,7 @@ private:
         return value(timerfd_relay.name, field);
     }
 
-    /// What the emulator has promised; the timing of `precise` alone, which is the default.
+    /// Returns the rows with a target. Only `precise`, the default, has targets for its timing.
     [[nodiscard]] std::vector<Row> target_rows() const
     {
         std::vector<Row> rows;
@@ -198,7 +198,7 @@ private:
             in_order.target = 0.0;
             rows.insert(rows.end(), {never_early, in_order});
         }
-        // Without a delay there is no time to leave at: all that counts is to be woken up.
+        // Without a delay no time of departure exists, and only the wake-up counts.
         if (case_.delay == 0ns || case_.rate > 1000.0) return rows;
         Row p50 = ratio_row("p50_ratio", &Numbers::p50);
         p50.target = case_.standing == Standing::real_time ? 5.0 : 4.0;
@@ -271,7 +271,7 @@ Accuracy measure_accuracy(const Plan& plan, bool fifo)
     for (const Case& one : cases) comparisons.emplace_back(plan, one);
     Prober prober{Sending::ordinary};
     set_real_time(fifo);
-    const int rounds = 3; // a median of three forgives one that something else has spoilt
+    const int rounds = 3; // the median of three is safe against one disturbed round
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < cases.size(); ++i) {
             fmt::print(stderr, "accuracy: round {} of {}: {}\n", round + 1, rounds,

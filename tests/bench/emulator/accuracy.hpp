@@ -12,7 +12,7 @@
 
 namespace hapnet::bench {
 
-/// The errors of all datagrams of one subject in the case that --csv is about. Sorted.
+/// The sorted errors of all datagrams of one subject, in the case that --csv prints.
 struct Distribution {
     std::string_view subject;
     std::vector<base::Duration> errors;
@@ -23,8 +23,8 @@ struct Accuracy {
     std::vector<Distribution> distributions; // at 1000 datagrams per second and 10 ms
 };
 
-/// The error against the configured delay of every subject and of the direct path, the subjects in
-/// turn, round after round; each number is the median over the rounds.
+/// Measures the error against the configured delay, of every subject and of the direct path. The
+/// subjects take turns, round after round; each number is the median over the rounds.
 [[nodiscard]] Accuracy measure_accuracy(const Plan& plan, bool fifo);
 
 } // namespace hapnet::bench

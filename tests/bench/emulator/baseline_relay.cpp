@@ -27,7 +27,7 @@ namespace hapnet::bench {
 namespace {
 
 constexpr std::size_t datagram_bytes_max = 2048;
-constexpr int turn_datagrams_max = 64; // from one socket before the other has its turn
+constexpr int turn_datagrams_max = 64; // datagrams of one socket before it is the other's turn
 
 class Socket {
 public:
@@ -139,7 +139,7 @@ private:
     Socket b_;
     std::uint64_t number_ = 0;
     std::vector<Entry> heap_;
-    std::deque<Place> places_; // grows without moving
+    std::deque<Place> places_; // grows without moving its elements
     std::vector<std::size_t> free_;
 };
 

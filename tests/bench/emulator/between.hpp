@@ -10,12 +10,12 @@
 
 namespace hapnet::bench {
 
-/// The round trips of a probe through `between`, 40 ms each way. No rows, and a word on stderr,
-/// where the system allows no network of one's own.
+/// Measures the round trips of a probe through `between`, 40 ms each way. Returns no rows, with a
+/// word on stderr, where the system allows no network namespace.
 [[nodiscard]] std::vector<Row> measure_between(const Plan& plan);
 
-/// The rows of what `probe --json` has printed behind whatever else; none when it has measured
-/// nothing.
+/// Returns the rows of the output of `probe --json`, which may follow other output; none if the
+/// probe measured nothing.
 [[nodiscard]] std::vector<Row> rows_of_round_trips(const std::string& printed);
 
 } // namespace hapnet::bench

@@ -29,7 +29,7 @@ struct Turns {
     base::Duration each;
 };
 
-/// What a relay gets in one of its turns.
+/// The result of one turn of a relay.
 struct Turn {
     double rate;
     base::Duration duration;

@@ -14,11 +14,11 @@ namespace hapnet::bench {
 
 namespace {
 
-/// A metric of a relay, and how it is found.
+/// A metric of a relay, and how it is computed.
 struct Metric {
     std::string_view name;
     double (*of)(const BesideBusy&);
-    bool is_judged; // by the timerfd relay's
+    bool is_judged; // judged against the timerfd relay
 };
 
 constexpr double default_p99_us_max = 1000.0; // at 20 kpps

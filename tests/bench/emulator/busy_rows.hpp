@@ -16,13 +16,13 @@
 
 namespace hapnet::bench {
 
-/// What a relay did beside busy processes, in all trials at one rate together.
+/// The results of a relay beside busy processes, over all trials at one rate.
 struct BesideBusy {
     std::vector<base::Duration> errors; // in any order
-    std::size_t stalls = 0;             // longer than `stall_min`
+    std::size_t stalls = 0;             // waits longer than `stall_min`
     base::Duration longest_stall{};
     std::uint64_t lost = 0;
-    base::Duration used{}; // of its processor
+    base::Duration used{}; // its processor time
     base::Duration took{};
 
     static constexpr base::Duration stall_min = std::chrono::milliseconds{5};
@@ -32,12 +32,11 @@ struct BesideBusy {
     [[nodiscard]] double share() const;
 };
 
-/// Above this share of its core the timerfd relay is no measure of what is possible.
+/// Above this share of its core, the timerfd relay no longer shows what is possible.
 inline constexpr double share_comparable = 0.8;
 
-/// The rows of one rate: eco and precise beside the timerfd relay, all three of which are there.
-/// Without SCHED_FIFO (`fifo`) the relays take turns with the busy processes, and nothing is
-/// promised.
+/// Returns the rows of one rate: eco and precise against the timerfd relay. Without SCHED_FIFO
+/// (`fifo`) the relays share the processors with the busy processes, and have no target.
 [[nodiscard]] std::vector<Row>
 rows_beside_busy(double rate, std::map<std::string_view, BesideBusy> relays, bool fifo);
 

@@ -33,10 +33,10 @@ struct Case {
     }
 };
 
-/// What a search has found.
+/// The result of a search.
 struct Capacity {
     double rate = 0.0;
-    bool by_sender = false; // the sender could not do more
+    bool by_sender = false; // the sender reached its limit first
     std::uint64_t reordered = 0;
 };
 
@@ -68,8 +68,8 @@ public:
     }
 
 private:
-    /// A rate passes when one of a few trials does: what else runs on the machine may spoil one. A
-    /// trial in which the sender fell short proves nothing but the rate that it reached.
+    /// True if one of a few trials passes, because other work on the machine may spoil one. In a
+    /// trial in which the sender fell short, only the rate that it reached counts.
     bool passes(const RelayProcess& relay, double rate)
     {
         bool is_short = false;
@@ -136,9 +136,9 @@ std::vector<Row> compare(const Plan& plan, const Case& given, Standing standing)
     rate.baseline_value = median(theirs);
     // The ratio is baseline / value: 1.2 times and 3 times the rate of the baseline.
     rate.target = given.sending == Sending::ordinary ? 1.0 / 1.2 : 1.0 / 3.0;
-    // 1: the sender could not do more, and the relay might.
+    // 1: the sender reached its limit, and the relay perhaps not
     const Row limit = row("limited_by_sender", by_sender ? 1.0 : 0.0);
-    if (given.sending == Sending::ordinary) return {rate, limit}; // nobody sees the order there
+    if (given.sending == Sending::ordinary) return {rate, limit}; // the order cannot be seen there
     Row in_order = row("reordered", reordered);
     in_order.target = 0.0;
     return {rate, limit, in_order};

@@ -9,10 +9,10 @@
 
 namespace hapnet::bench {
 
-/// The highest rate at which less than one datagram in a thousand is lost or left behind, of this
-/// emulator and of the poll relay in turn, on one core each. With ordinary senders both ends send
-/// and receive datagram by datagram; with offload they hand the kernel many at a time and get them
-/// so.
+/// Measures the highest rate at which less than one datagram in a thousand is lost or left behind,
+/// for this emulator and for the poll relay in turn, on one core each. With ordinary senders both
+/// ends send and receive single datagrams. With offload they pass many at a time to the kernel and
+/// receive them merged.
 [[nodiscard]] std::vector<Row> measure_capacity(const Plan& plan, bool fifo);
 
 } // namespace hapnet::bench

@@ -11,16 +11,16 @@ namespace hapnet::bench {
 
 [[nodiscard]] double microseconds(base::Duration duration);
 
-/// Of sorted values, by nearest rank: one of them, in microseconds; NaN when there is none.
+/// Returns a quantile of sorted values by nearest rank, microseconds; NaN without values.
 [[nodiscard]] double quantile_us(const std::vector<base::Duration>& sorted, double share);
 
-/// When a datagram was due to leave, and how late it was.
+/// The due time of a datagram, and its lateness.
 struct Departure {
     base::TimePoint due{};
     base::Duration late{};
 };
 
-/// Times in which nothing left that was due, or only what had been due for long.
+/// Times in which no datagram left that was due, or only datagrams long overdue.
 struct Stalls {
     std::size_t count = 0;
     base::Duration longest{};

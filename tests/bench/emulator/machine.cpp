@@ -24,10 +24,10 @@ namespace hapnet::bench {
 
 namespace {
 
-constexpr int relay_priority = 40; // what hapnet-emulator asks for
+constexpr int relay_priority = 40; // as hapnet-emulator requests
 constexpr int prober_priority = 30;
 
-/// What root may do and an ordinary user may not, as far as timing goes.
+/// Gives up the privileges of root that concern timing.
 void give_up_privileges()
 {
     for (const int capability : {CAP_SYS_NICE, CAP_IPC_LOCK, CAP_NET_ADMIN, CAP_SYS_RESOURCE}) {
@@ -41,8 +41,8 @@ void give_up_privileges()
     set_fifo(0);
 }
 
-/// A child that does what `prepare` does and then becomes a command; its stdout can be read from
-/// the descriptor.
+/// A child that runs `prepare` and then becomes a command. Its stdout can be read from the
+/// descriptor.
 struct Child {
     pid_t pid = -1;
     int out = -1;

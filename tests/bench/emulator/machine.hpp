@@ -12,21 +12,21 @@
 
 namespace hapnet::bench {
 
-/// How a program may use the machine: with SCHED_FIFO, or as an ordinary user's program that has no
-/// privilege at all.
+/// The standing of a program on the machine: with SCHED_FIFO, or as an ordinary user without any
+/// privilege.
 enum class Standing : std::uint8_t { real_time, ordinary };
 
-/// The prober gets the first processor, the relay the second, where there are two.
+/// Pins the prober to the first processor. The relay gets the second, if there are two.
 void pin_prober();
 
-/// Lets this thread have, or not have, SCHED_FIFO; nothing when the machine does not allow it.
+/// Sets or clears SCHED_FIFO for this thread. Does nothing when the machine does not allow it.
 void set_real_time(bool on);
 
-/// What a command prints until it ends, on any processor; its stderr goes nowhere.
+/// Runs a command until it ends, on any processor, and returns its stdout. Its stderr is discarded.
 [[nodiscard]] std::string output_of(const std::vector<std::string>& words);
 
-/// A process on each processor that never sleeps, with the priority of any program. They end when
-/// this goes out of scope, and when the bench is killed.
+/// One process on each processor that never sleeps, at ordinary priority. They end with this
+/// object, and when the bench is killed.
 class BusyProcesses {
 public:
     /// Throws std::system_error.
@@ -44,8 +44,8 @@ private:
 /// The processor time that a process has used so far, to the nanosecond; 0 when there is none.
 [[nodiscard]] base::Duration time_used_by(pid_t process);
 
-/// A relay that runs as a child: it prints "ready a=HOST:PORT b=HOST:PORT", or what else it listens
-/// to, when its sockets are bound. Stopped when it goes out of scope.
+/// A relay that runs as a child: it prints "ready a=HOST:PORT b=HOST:PORT", or its other sockets,
+/// when its sockets are bound. Stopped when it goes out of scope.
 class RelayProcess {
 public:
     /// Throws std::runtime_error when it does not become ready.
@@ -54,9 +54,9 @@ public:
     RelayProcess(const RelayProcess&) = delete;
     RelayProcess& operator=(const RelayProcess&) = delete;
 
-    /// Its ready line.
+    /// Returns its ready line.
     [[nodiscard]] const std::string& ready() const { return ready_; }
-    /// Where datagrams for B are to be sent, of one pair.
+    /// The address of one pair that takes datagrams for B.
     [[nodiscard]] net::Endpoint a() const;
 
     /// The processor time that it has used so far, to the nanosecond.

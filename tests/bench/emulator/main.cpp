@@ -102,7 +102,7 @@ net::CommandLine<Options> parse(std::span<char*> words)
     return options;
 }
 
-/// The shares of the datagrams that were at most so late.
+/// Returns, by lateness, the share of datagrams that were at most that late.
 std::string csv_of(const Accuracy& accuracy)
 {
     constexpr int steps = 400;
@@ -121,7 +121,7 @@ std::string csv_of(const Accuracy& accuracy)
     return csv;
 }
 
-/// The rows of a bench, and the distributions where it has some.
+/// The rows of a bench, and its distributions if it has some.
 struct Measured {
     std::vector<Row> rows;
     std::string csv;
@@ -138,7 +138,7 @@ Measured measure(const Options& options, bool fifo)
     return measured;
 }
 
-/// How long it all took, and may take.
+/// The time that the whole bench took, with its limit.
 Row duration_row(const Options& options, base::Duration took)
 {
     const double full_s_max = options.beside_busy ? 900.0 : 300.0;

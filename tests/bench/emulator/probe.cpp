@@ -24,13 +24,13 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t burst_max = net::BatchSender::batch_max;
 
-/// How long the path may be silent before what is missing counts as lost.
+/// The silence of the path after which missing datagrams count as lost.
 constexpr base::Duration quiet = 60ms;
 
-/// How late a datagram may be for a rate to be kept up.
+/// The lateness up to which a rate counts as kept up.
 constexpr base::Duration grace = 10ms;
 
-/// A send call that takes longer was interrupted.
+/// A longer send call was interrupted.
 constexpr base::Duration send_max = 1ms;
 
 /// A SCHED_FIFO thread must sleep at times, or the kernel's own threads do not run.
@@ -118,7 +118,7 @@ std::vector<Departure> Prober::departures(base::Duration delay) const
     return departures;
 }
 
-/// Another than the one that is due, which was sent a delay before.
+/// True if a datagram other than the one due was sent shortly before.
 bool Prober::has_sent_shortly_before(base::TimePoint due) const
 {
     const auto next = std::lower_bound(sent_at_.begin(), sent_at_.end(), due);
@@ -180,7 +180,7 @@ void Prober::send_burst(const net::Endpoint& to)
     if (sent > 0) tally_.sent += static_cast<std::uint64_t>(sent);
 }
 
-/// Takes what has arrived. What our own socket had no room for has come through the path.
+/// Receives all that has arrived. Datagrams that our own socket dropped have passed the path, too.
 void Prober::receive(const Load& load)
 {
     if (is_sink_) {

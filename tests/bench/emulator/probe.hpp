@@ -17,27 +17,27 @@ namespace hapnet::bench {
 
 constexpr std::size_t payload_bytes = 100;
 
-/// How datagrams are handed to the kernel: one by one (in one system call), or merged by
-/// UDP_SEGMENT; the receiver then takes them merged, too.
+/// How the sender passes datagrams to the kernel: one by one (in one system call), or merged by
+/// UDP_SEGMENT. The receiver takes them in the same way.
 enum class Sending : std::uint8_t { ordinary, offload };
 
-/// What came back of what was sent.
+/// The datagrams that came back from a path.
 struct Tally {
     std::uint64_t sent = 0;
     std::uint64_t received = 0;
     std::uint64_t reordered = 0; // came after one that was sent later
-    /// The share of what was sent that has not come yet.
+    /// Returns the share of the sent datagrams that has not come yet.
     [[nodiscard]] double missing() const;
 };
 
 struct TimingTrial {
-    /// Of each datagram: kernel receive stamp - time before its send call - the delay. Sorted.
+    /// The sorted errors: kernel receive stamp - time before the send call - the delay.
     std::vector<base::Duration> errors;
-    /// Of those for which the relay had another one to receive in the last `shortly` before they
-    /// were due. Sorted.
+    /// The sorted errors of datagrams for which the relay had another datagram to receive in the
+    /// last `shortly` before they were due.
     std::vector<base::Duration> errors_beside_arrival;
-    /// Of those whose send call came back at once. When the prober itself was stopped in it, their
-    /// lateness says nothing of the relay.
+    /// The departures of datagrams whose send call returned at once. If the prober itself was
+    /// stopped in that call, the lateness says nothing about the relay.
     std::vector<Departure> departures;
     Tally tally;
     static constexpr base::Duration shortly = std::chrono::microseconds{200};
@@ -46,8 +46,8 @@ struct TimingTrial {
 struct RateTrial {
     Tally tally;
     double rate = 0.0; // datagrams per second, as they were sent
-    /// The share that was lost, or still queued 10 ms after the last was due: a rate that only fits
-    /// into the buffers for as long as a trial lasts is not kept up.
+    /// The share that was lost, or still queued 10 ms after the last was due. A rate that only fits
+    /// into the buffers during a trial is not kept up.
     double missing = 0.0;
 };
 
@@ -68,8 +68,8 @@ public:
         base::Duration delay{};    // of the path
     };
 
-    /// One datagram at a time. The times between them are uniform on 0.5 to 1.5 of the mean: with
-    /// equal ones, departures would meet arrivals at the same phase again and again.
+    /// Sends single datagrams. The times between them are uniform on 0.5 to 1.5 of the mean: with
+    /// equal times, departures would meet arrivals at the same phase again and again.
     TimingTrial measure_timing(const Load& load);
 
     /// Bursts of 64, back to back when the rate is above what this thread can send. An ordinary
@@ -104,7 +104,7 @@ private:
     std::uint32_t sunk_ = 0; // as the kernel counts them: 32 bits, wrapping
     Tally tally_;
     std::vector<base::TimePoint> sent_at_; // of the trial's datagrams
-    std::vector<base::TimePoint> stopped_; // of those that the prober was stopped at
+    std::vector<base::TimePoint> stopped_; // times at which the prober was stopped
     std::vector<base::Duration> errors_;
     std::vector<base::TimePoint> due_; // of those in errors_
 };

@@ -45,7 +45,7 @@ net::Endpoint endpoint_after(const std::string& name, const std::string& ready)
     return net::resolve(place.value());
 }
 
-/// Many senders, or one, and the end at which all of their datagrams come out.
+/// One or many senders, and the end that receives all of their datagrams.
 class Crowd {
 public:
     explicit Crowd(std::size_t senders)
@@ -57,12 +57,12 @@ public:
 
     [[nodiscard]] net::Endpoint end() const { return end_.local(); }
 
-    /// The n-th sender sends to the n-th place; if there is one sender or one place, to or from
-    /// that.
+    /// Aims the n-th sender at the n-th place. A single sender aims at all places, and a single
+    /// place is the aim of all.
     void aim(std::vector<net::Endpoint> places) { places_ = std::move(places); }
 
-    /// Lateness of what was sent in so long, one datagram after the other to each place in turn.
-    /// Sorted.
+    /// Sends single datagrams to each place in turn for `duration`, and returns their sorted
+    /// lateness.
     std::vector<base::Duration> lateness(double rate, base::Duration duration)
     {
         const auto count = static_cast<std::uint64_t>(base::to_seconds(duration) * rate);
@@ -81,7 +81,7 @@ public:
         return late_;
     }
 
-    /// Sends batches to each place in turn for so long; gives how many datagrams came out.
+    /// Sends batches to each place in turn for a duration, and returns how many datagrams came out.
     std::uint64_t flood(double rate, base::Duration duration)
     {
         const std::array<std::byte, payload_bytes> payload{};
@@ -153,7 +153,7 @@ std::vector<std::string> with_common(const Plan& plan, std::vector<std::string> 
     return words;
 }
 
-/// Words for links of a mesh between one place and another.
+/// Returns the options for links of a mesh between one place and another.
 std::vector<std::string> links(std::size_t count, const net::Endpoint& end)
 {
     std::vector<std::string> words;
@@ -173,7 +173,7 @@ std::vector<net::Endpoint> places_of_links(std::size_t count, const std::string&
     return places;
 }
 
-/// How late so many clients of a server are, together at this rate.
+/// Returns the lateness of `clients` clients of a server, together at this rate.
 double late_clients(const Plan& plan, std::size_t clients, double rate, Standing standing)
 {
     Crowd crowd{clients};
@@ -181,11 +181,11 @@ double late_clients(const Plan& plan, std::size_t clients, double rate, Standing
         with_common(plan, {"--listen", "127.0.0.1:0", "--upstream", crowd.end().to_text()}),
         standing};
     crowd.aim({endpoint_after("listen", relay.ready())});
-    std::ignore = crowd.lateness(rate, 50ms); // each has its socket and its path afterwards
+    std::ignore = crowd.lateness(rate, 50ms); // gives each client its socket and its path
     return quantile_us(crowd.lateness(rate, plan.quick ? 200ms : 1s), 0.99);
 }
 
-/// The same of links.
+/// As late_clients(), for links.
 double late_links(const Plan& plan, std::size_t count, double rate, Standing standing)
 {
     Crowd crowd{1};
@@ -206,7 +206,7 @@ Row row(std::string name, std::string subject, std::string baseline, std::string
             .target = std::nullopt};
 }
 
-/// `measure(count)`: with so many paths.
+/// `measure(count)` measures with that number of paths.
 Row compare_lateness(const std::string& paths, std::size_t count, int rounds, const auto& measure)
 {
     std::vector<double> many;

@@ -46,7 +46,7 @@ TEST(Rows, JudgeTheValueOrTheRatioByTheNameOfTheMetric)
     one.target = 6.5;
     EXPECT_EQ(one.met(), false);
     one.baseline_value.reset();
-    EXPECT_EQ(one.met(), false); // a ratio that nobody could measure meets nothing
+    EXPECT_EQ(one.met(), false); // a ratio that could not be measured meets no target
 }
 
 TEST(Rows, ABoundThatIsReachedExactlyIsMet)
@@ -122,7 +122,7 @@ TEST(Prober, KnowsWhenEachWasDueAndHowLateItWas)
 {
     Prober prober{Sending::ordinary};
     const auto trial = prober.measure_timing({prober.b(), 10'000.0, 20ms, 0ms});
-    ASSERT_LE(trial.departures.size(), trial.errors.size()); // less those it was stopped at
+    ASSERT_LE(trial.departures.size(), trial.errors.size()); // stopped sends are left out
     ASSERT_FALSE(trial.departures.empty());
     for (std::size_t i = 1; i < trial.departures.size(); ++i) {
         EXPECT_GT(trial.departures[i].due, trial.departures[i - 1].due);
@@ -133,7 +133,7 @@ base::TimePoint at(base::Duration time) { return base::TimePoint{} + time; }
 
 TEST(Stalls, AreWaitsLongerThanTheLimitAndThoseThatOverlapAreOne)
 {
-    // From 10 ms to 60 ms nothing leaves; what is due at 56 ms waits 4 ms only.
+    // Nothing leaves from 10 ms to 60 ms. A datagram that is due at 56 ms waits only 4 ms.
     std::vector<Departure> departures;
     for (int ms = 0; ms < 100; ++ms) {
         const base::Duration due = ms * 1ms;
@@ -161,13 +161,13 @@ TEST(BusyProcesses, KeepEachProcessorBusyAndEnd)
         ids = busy.ids();
         EXPECT_EQ(ids.size(), static_cast<std::size_t>(sysconf(_SC_NPROCESSORS_ONLN)));
         for (const pid_t id : ids) {
-            while (time_used_by(id) < 20ms) usleep(1000); // or the test's time is over
+            while (time_used_by(id) < 20ms) usleep(1000); // or until the test's time is over
         }
     }
     for (const pid_t id : ids) EXPECT_EQ(kill(id, 0), -1) << id;
 }
 
-/// All of one relay's datagrams equally late.
+/// A relay whose datagrams are all equally late.
 BesideBusy relay(base::Duration late, std::size_t stalls, base::Duration used)
 {
     return {.errors = std::vector<base::Duration>(100, late),
@@ -178,7 +178,7 @@ BesideBusy relay(base::Duration late, std::size_t stalls, base::Duration used)
             .took = 1s};
 }
 
-/// Whether the row of a metric is met; nullopt when it is not judged.
+/// True if the row of a metric is met; nullopt when it is not judged.
 std::optional<bool> met(const std::vector<Row>& rows, std::string_view subject,
                         std::string_view metric)
 {
@@ -209,7 +209,7 @@ TEST(BesideBusy, IsJudgedByTheTimerfdRelayAsLongAsThatOneKeepsUp)
          {rows_with(10'000.0, 800ms, true), rows_with(20'000.0, 1ms, false)}) {
         for (const Row& row : unjudged) EXPECT_EQ(row.met(), std::nullopt) << row.metric;
     }
-    // At 20 kpps the default has a bound of its own, whatever the other relay does.
+    // At 20 kpps the default has its own bound, whatever the other relay does.
     EXPECT_EQ(met(rows_with(20'000.0, 900ms, true), precise.name, "p99_us_of_the_default"), true);
 }
 

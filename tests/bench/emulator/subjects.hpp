@@ -12,18 +12,18 @@
 
 namespace hapnet::bench {
 
-/// Where the programs are that are compared, and how long it may take.
+/// The places of the compared programs, and the allowed time.
 struct Plan {
     std::string emulator; // the path of hapnet-emulator
-    std::string self;     // the path of this program, which is the baselines too
-    bool quick = false;   // within a minute; the tails then rest on few datagrams
+    std::string self;     // path of this program, which contains the baselines
+    bool quick = false;   // ends within a minute; the tails then rest on few datagrams
 };
 
 /// A relay under test.
 struct Subject {
     std::string_view name;
-    std::string_view timing; // of hapnet-emulator; "" for a baseline
-    std::string_view relay;  // of this program
+    std::string_view timing; // timing option of hapnet-emulator; "" for a baseline
+    std::string_view relay;  // baseline in this program
 };
 
 inline constexpr Subject eco{"hapnet-emulator eco", "eco", ""};
@@ -37,7 +37,7 @@ struct Ends {
     net::Endpoint b;
 };
 
-/// The command that runs it between two ends.
+/// Returns the command that runs the relay between two ends.
 [[nodiscard]] inline std::vector<std::string> command_of(const Subject& subject, const Plan& plan,
                                                          const Ends& ends, base::Duration delay)
 {

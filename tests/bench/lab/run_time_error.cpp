@@ -21,7 +21,7 @@ constexpr base::Duration reference_tick = 50us;
 constexpr std::array<base::Duration, 5> ticks{4ms, 2ms, 1ms, 500us, 250us};
 constexpr std::array steps_in_a_tick{1, 2, 5, 20, 100};
 constexpr std::array seeds_taken{1, 2, 5, 10, 20};
-constexpr std::size_t groups_min = 5; // of seeds: fewer say little
+constexpr std::size_t groups_min = 5; // groups of seeds: fewer say little
 constexpr std::array<std::string_view, 3> algorithms{"base", "dead-reckoning", "sep"};
 constexpr std::array<std::string_view, 3> figures{"mean", "std", "max"};
 
@@ -31,7 +31,7 @@ double figure(const Figures& of, std::string_view name)
     return name == "std" ? of.std : of.max;
 }
 
-/// The least wall time of several plays, and what they all give.
+/// Plays a session several times, and returns its result with the least wall time.
 Result played_often(const Session& session, int times)
 {
     Result best = played(session);
@@ -42,7 +42,7 @@ Result played_often(const Session& session, int times)
     return best;
 }
 
-/// P1 by one algorithm, with other ticks and other hands.
+/// P1 with one algorithm, and with other ticks and hands.
 class P1 {
 public:
     P1(std::string_view algorithm, bool quick)
@@ -90,8 +90,8 @@ double mean_of(const std::vector<double>& values, std::size_t from, std::size_t 
     return sum / static_cast<double>(count);
 }
 
-/// How far the mean of `count` values lies from that of endlessly many: from the groups of so many
-/// in a row. The mean of all has its part in each group's, by which their distance is too small.
+/// Estimates the error of a mean of `count` values from groups of that size. The mean of all values
+/// contains each group, so distances from it are too small.
 double group_error(const std::vector<double>& values, std::size_t count)
 {
     const double all = mean_of(values, 0, values.size());

@@ -23,8 +23,7 @@ TEST(SteppedHand, ComesToTheFiguresOfTheExactOneWithSmallSteps)
     EXPECT_GT(exact.mean, 5.0);
     Session session = short_session();
     session.steps_a_read = 100;
-    // It aims at where it wants to be at the end of the tick, and what it tells comes in counts of
-    // 0.055 mm.
+    // The stepped hand aims at its place at the end of the tick, and reports counts of 0.055 mm.
     EXPECT_NEAR(figures_of(played(session).trace).mean, exact.mean, 0.02);
 }
 

@@ -10,21 +10,21 @@
 
 namespace hapnet::bench {
 
-/// A session to be played, by whose hands.
+/// A session to play, and its hands.
 struct Session {
     lab::virtual_time::Setting setting;
-    int steps_a_read = 0; // of the hands; 0: exact ones, as everywhere else
+    int steps_a_read = 0; // steps of the hands per read; 0: exact hands, as everywhere else
 };
 
-/// A task under the paper's 160 ms, by an algorithm of this name on both sides.
+/// Returns a task under the paper's 160 ms, with this algorithm on both sides.
 [[nodiscard]] Session session_of(device::Task task, std::string_view algorithm);
 
-/// What came of it, and how long it took.
+/// The result of a session, and the time that it took.
 struct Result {
     lab::virtual_time::Trace trace;
     double wall_s = 0.0;
 
-    /// The wall time of one second of a session's.
+    /// Returns the wall time for one second of the session.
     [[nodiscard]] double wall_s_per_s() const { return wall_s / base::to_seconds(trace.simulated); }
 };
 [[nodiscard]] Result played(const Session& session);

@@ -14,14 +14,14 @@ namespace {
 
 using device::Task;
 
-constexpr double target_of_p1 = 1000.0; // the carried cube, one hand that does not waver
+constexpr double target_of_p1 = 1000.0; // the carried cube, with a hand without tremor
 constexpr double target_of_others = 300.0;
-constexpr int steps_before = 20; // in a millisecond, of the hand that was
+constexpr int steps_before = 20; // steps per millisecond of the reference
 
 struct Case {
     Session session;
     std::string_view algorithm;
-    std::vector<double> wall_s_per_s{}; // of each round
+    std::vector<double> wall_s_per_s{}; // one value per round
 
     [[nodiscard]] Row row() const
     {

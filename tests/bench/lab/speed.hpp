@@ -8,8 +8,8 @@
 
 namespace hapnet::bench {
 
-/// How many times faster than life sessions are played on one processor, a row for each task and
-/// algorithm: the median over `rounds` in which the cases take turns.
+/// Measures how many times faster than real time sessions run on one processor. Returns a row for
+/// each task and algorithm: the median over `rounds`, in which the cases take turns.
 [[nodiscard]] std::vector<Row> measure_speed(int rounds);
 
 } // namespace hapnet::bench

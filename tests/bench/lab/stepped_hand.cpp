@@ -11,7 +11,7 @@ namespace hapnet::bench {
 
 namespace {
 
-// SimulatedOmni's: where its workspace is, and how long the hand takes to its part.
+// From SimulatedOmni: the place of the workspace, and the time in which the hand reaches its part.
 constexpr double workspace_offset_m = 0.025;
 constexpr double approach_s = 0.8;
 
@@ -87,8 +87,8 @@ void SteppedHand::advance(const base::Position& target, double seconds)
         double& v = motion_[axis];
         const double pull = force_[axis] - hand.damping_ns_per_m * v -
                             hand.stiffness_n_per_m * (x - target.value[axis]);
-        // Coulomb friction sticks while the pull is weaker, and otherwise never turns the motion
-        // round within a step (Karnopp 1985).
+        // Coulomb friction sticks while the pull is weaker. Otherwise it never reverses the motion
+        // within a step (Karnopp 1985).
         const double free_v = v + seconds * pull / hand.mass_kg;
         const double friction_dv = seconds * plant.friction_n / hand.mass_kg;
         v = std::abs(free_v) <= friction_dv ? 0.0 : free_v - std::copysign(friction_dv, free_v);

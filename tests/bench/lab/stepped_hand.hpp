@@ -15,10 +15,8 @@
 
 namespace hapnet::bench {
 
-/// What SimulatedOmni is measured against: the same hand and device, every axis by Euler's
-/// symplectic method in equal steps from read to read, as is usual. Twenty of them in a
-/// millisecond is what SimulatedOmni did before it went there in one exact step. Without reflex
-/// and will.
+/// The reference for SimulatedOmni: the same hand and device, with each axis integrated by
+/// symplectic Euler in equal steps from read to read, as is usual. It has no reflex and no will.
 class SteppedHand final : public device::Device {
 public:
     SteppedHand(const device::Performer& performer, int steps_a_read);

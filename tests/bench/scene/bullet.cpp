@@ -13,8 +13,8 @@ namespace hapnet::bench {
 
 namespace {
 
-/// Half the edge of the box that stands for a plane, so that it lies under every body, also under
-/// one that flies for a second.
+/// Half the edge of the box that stands for a plane. It lies under every body, also under one that
+/// flies for a second.
 double slab_half(const scene::Description& scene)
 {
     double reach = 0.0, way = 2.0;
@@ -51,7 +51,7 @@ btScalar restitution_of(const btCollisionObject* a, const btCollisionObject* b)
     return btMax(a->getRestitution(), b->getRestitution());
 }
 
-/// Of a hand and a body only the hand's damping counts; Bullet would add 0.1 for the body.
+/// Only the hand's damping counts between a hand and a body. Bullet would add 0.1 for the body.
 btScalar damping_of(const btCollisionObject* a, const btCollisionObject* b)
 {
     return a->isKinematicObject() ? a->getContactDamping() : b->getContactDamping();
@@ -133,7 +133,7 @@ private:
         gDeactivationTime = scalar_of(0.3);
         world_.getSolverInfo().m_restitutionVelocityThreshold = scalar_of(1e-3);
         world_.setForceUpdateAllAabbs(false);
-        // A body that moves less than this in a tick is not swept: 40 mm by default.
+        // A body that moves less than this in a tick is not swept. The default is 40 mm.
         world_.getDispatchInfo().m_allowedCcdPenetration = 0;
     }
 
@@ -221,8 +221,8 @@ private:
         body.setCcdSweptSphereRadius(least / 2);
     }
 
-    /// A box for a plane, unless the scene asks for the other: of the two that Bullet offers the
-    /// one with the better contacts.
+    /// Adds a box for a plane, unless the scene asks for Bullet's own plane. The box makes better
+    /// contacts.
     void add(const scene::PlaneDescription& plane)
     {
         const glm::dvec3 n = plane.normal;
@@ -251,7 +251,7 @@ private:
         }
     }
 
-    /// Bullet takes the velocity of a kinematic body from where it was put before.
+    /// Moves kinematic bodies. Bullet computes their velocity from their previous place.
     void drive()
     {
         ++steps_;

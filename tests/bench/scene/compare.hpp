@@ -7,20 +7,20 @@
 
 namespace hapnet::bench {
 
-/// What one subject came to.
+/// The result of one subject.
 struct Reading {
     std::string subject;
     std::string family;
     double value = 0.0;
 };
 
-/// What is measured, and what Hapnet's value has to be.
+/// A measured figure, and the requirement on Hapnet's value.
 struct Question {
     std::string name;      // of the case
     std::string reference; // "" for none
     std::string metric;
     std::optional<double> target = {}; // for Hapnet's value
-    double ratio_min = 0.0;            // of the best peer's value to Hapnet's; 0: no target
+    double ratio_min = 0.0;            // the best peer's value over Hapnet's; 0: no target
     Direction direction = Direction::at_most;
 };
 
@@ -32,8 +32,7 @@ struct Question {
 [[nodiscard]] std::vector<Row> judge(const Scenario& scenario, std::span<const Subject> subjects,
                                      double seconds_each);
 
-/// A subject, and how it is set up for a scenario: peers twice where they have springs of their
-/// own.
+/// A subject, and its setup for a scenario. Peers with springs of their own appear twice.
 struct Entry {
     std::string name; // "bullet native"
     const Subject* subject = nullptr;

@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double block_ns = 20'000.0; // long beside the clock's 30 ns, short beside a time slice
-constexpr std::size_t block_steps_max = 256; // as long for who is fast as for who is slow
+constexpr std::size_t block_steps_max = 256; // the same for fast and slow engines
 constexpr double turn_ns = 200'000.0;        // rare paths, too, are warm in most of its blocks
 constexpr std::size_t blocks_min = 9;
 constexpr std::size_t blocks_max = 400;
@@ -32,7 +32,7 @@ void set_hands(Engine& engine, const Course& course, double time_s)
     }
 }
 
-/// A contender on its way through a course that begins again and again.
+/// A contender on a course that begins again and again.
 class Runner {
 public:
     Runner(const Course& course, const Contender& contender)
@@ -40,7 +40,7 @@ public:
     {
         begin();
         if (!engine_) return;
-        block(2); // the first steps find what later ones remember
+        block(2); // the first steps fill caches that later steps use
         const double once = block(4);
         block_steps_ = static_cast<std::size_t>(
             std::clamp(block_ns / once, 1.0, static_cast<double>(block_steps_max)));
@@ -86,8 +86,8 @@ private:
         return static_cast<double>(step_) * contender_.options.tick_s;
     }
 
-    /// The time of one step; where the hands will be is computed beforehand. One step before them
-    /// is not timed: it fetches what the others have put out of the caches.
+    /// The mean time of one step. The hands' places are computed beforehand. The step before them
+    /// is not timed: it reloads what the other contenders displaced from the caches.
     double block(std::size_t steps)
     {
         if (step_ + steps + 1 > steps_of(course_->duration_s, contender_.options.tick_s)) begin();

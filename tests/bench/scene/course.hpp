@@ -9,7 +9,7 @@
 
 namespace hapnet::bench {
 
-/// What is done with a scene: how long, and how its hands move.
+/// A scene, its duration, and the motion of its hands.
 struct Course {
     scene::Description scene;
     double duration_s = 1.0;
@@ -21,15 +21,15 @@ struct Course {
 void run(Engine& engine, const Course& course, double tick_s,
          const std::function<void(double time_s)>& after = {});
 
-/// Who is timed, and how it is set up.
+/// An engine to time, and its setup.
 struct Contender {
     const Subject* subject = nullptr;
     EngineOptions options;
 };
 
-/// Nanoseconds per step, hands included: the median over blocks of about 20 us, one
-/// step at least. The contenders take turns of some blocks in one thread, so that a busy machine
-/// hits all alike; a course that ends begins again. Not a number for who cannot run it.
+/// Returns nanoseconds per step, hands included: the median over blocks of about 20 us, one step at
+/// least. The contenders take turns of some blocks in one thread, so that other load affects all
+/// equally. A course that ends begins again. NaN for an engine that cannot run it.
 [[nodiscard]] std::vector<double> race(const Course& course, std::span<const Contender> contenders,
                                        double seconds_each);
 

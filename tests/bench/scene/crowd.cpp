@@ -154,7 +154,7 @@ Course pushed_crowd(int count)
     const scene::HandDescription hands = course.scene.hands;
     course.scene = field(count);
     course.scene.hands = hands;
-    course.warm_up_s = 0.3; // until what rests has fallen asleep
+    course.warm_up_s = 0.3; // until resting bodies have fallen asleep
     return course;
 }
 

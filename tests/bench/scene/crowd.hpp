@@ -6,14 +6,14 @@
 
 namespace hapnet::bench {
 
-/// The cost of the paper's scene and of 1 to 10000 cubes: one pushed among sleepers, all awake, in
-/// flight, landed.
+/// Measures the cost of the paper's scene and of 1 to 10000 cubes: one cube pushed among sleeping
+/// ones, and all awake, in flight, or landed.
 [[nodiscard]] std::vector<Row> measure_costs(std::span<const Subject> subjects, bool is_quick);
 
 /// Many cubes on a platform, the first one pushed to and fro between two hands.
 [[nodiscard]] Course pushed_crowd(int count);
 
-/// As many that fall and turn, each at its own rate, with nothing to fall on.
+/// As many cubes that fall and rotate, each at its own rate, without any ground.
 [[nodiscard]] Course flying_crowd(int count);
 
 } // namespace hapnet::bench

@@ -42,7 +42,7 @@ scene::Description on_platform(const scene::BodyDescription& body)
     return scene;
 }
 
-/// It slides until it rolls. `moment` is that about its axis, over mass and square of the radius.
+/// A round body that slides until it rolls. `moment`: its moment of inertia per m r^2.
 Scenario rolls(const std::string& name, const scene::BodyDescription& body, double moment)
 {
     constexpr double braked = friction * gravity;
@@ -92,7 +92,7 @@ Scenario sledge()
         [=](double) { return start + speed * speed / (2.0 * friction * gravity) * way; });
 }
 
-/// Of a damped oscillator that starts at rest, 1 from where it comes to.
+/// The place of a damped oscillator, released at a distance of 1 from equilibrium.
 double swings(double mass, double stiffness, double damping, double time_s)
 {
     const double decay = damping / (2.0 * mass);
@@ -176,8 +176,8 @@ Scenario hand_on_a_plane()
 constexpr double sticking = 0.6, sliding = 0.4;
 constexpr double spring_of_the_cube = 50.0, drawn = 0.05, push = 1.0;
 
-/// Where a mass on a spring is over which a hand is drawn, every quarter of a millisecond: the
-/// friction of this library in steps of a microsecond.
+/// Returns the place of a mass on a spring over which a hand is drawn, every quarter of a
+/// millisecond: this library's friction law in steps of a microsecond.
 std::vector<double> sticks_and_slips(double mass, int quarters)
 {
     constexpr double step = 1e-6;

@@ -12,8 +12,8 @@
 
 namespace hapnet::bench {
 
-/// A physics engine in which a scene runs: Hapnet's own, or a peer. The scene is said in Hapnet's
-/// words; each adapter translates it.
+/// A physics engine that runs a scene: Hapnet's own, or a peer. Scenes are described in Hapnet's
+/// terms, and each adapter translates them.
 class Engine {
 public:
     Engine() = default;
@@ -21,23 +21,22 @@ public:
     Engine& operator=(const Engine&) = delete;
     virtual ~Engine() = default;
 
-    /// Where a hand is at the start of the next step.
+    /// Sets the place of a hand at the start of the next step.
     virtual void set_hand(std::uint32_t index, const scene::HandInput& input) = 0;
     virtual void step() = 0;
     [[nodiscard]] virtual scene::BodyState state(scene::BodyId body) const = 0;
-    /// What a hand did to the bodies in the last step, N, and to the planes that hands feel.
+    /// Returns the force of a hand on bodies and felt planes in the last step, N.
     [[nodiscard]] virtual glm::dvec3 hip_force(std::uint32_t index) const = 0;
 };
 
-/// How the hands' springs reach the bodies in a peer.
+/// The way in which the hands' springs reach the bodies of a peer.
 enum class HipForce : std::uint8_t {
     held,   // F = k depth - c v at the start of the step, as an external force: what CHAI3D does
     native, // the engine's own compliant contact
 };
 
-/// How MuJoCo integrates; the other engines have one way. Implicit suits fast spins, and Runge and
-/// Kutta's fourth order flight: each takes several times as long, and has worse contacts or no
-/// better ones.
+/// The integrator of MuJoCo; the other engines have one. Implicit suits fast spins, and Runge and
+/// Kutta's fourth order suits flight. Each takes several times as long without better contacts.
 enum class Integrator : std::uint8_t { usual, implicit, rk4 };
 
 struct EngineOptions {
@@ -55,7 +54,7 @@ struct EngineOptions {
 /// An engine that can be measured. In a peer the hands meet body 0 alone, which is in its favour.
 struct Subject {
     std::string name;   // "ode-step"
-    std::string family; // "ode": what a row calls its baseline
+    std::string family; // "ode": the baseline in a row
     bool has_native_hips = false;
     /// nullptr when it cannot run the scene.
     std::unique_ptr<Engine> (*make)(const scene::Description&, const EngineOptions&) = nullptr;
@@ -67,10 +66,10 @@ inline constexpr const char* own_family = "hapnet";
 /// Hapnet, and the peers that were found when the bench was built, Hapnet first.
 [[nodiscard]] std::vector<Subject> subjects();
 
-/// What is missing of the peers, for people; empty when nothing is.
+/// Returns a message about missing peers; empty when none is missing.
 [[nodiscard]] std::string missing_peers();
 
-/// What the peers have said about themselves while they ran, for people; empty when nothing.
+/// Returns the peers' own errors and warnings of this run; empty when there are none.
 [[nodiscard]] std::string complaints_of_peers();
 
 } // namespace hapnet::bench

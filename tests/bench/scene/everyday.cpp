@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What a sceptic would ask for: everyday scenes that are no engine's best case.
+// Everyday scenes that are no engine's best case.
 #include "scene/mass.hpp"
 #include "tests/bench/scene/scenario.hpp"
 
@@ -76,7 +76,7 @@ Scenario cradle()
     return scenario;
 }
 
-/// Four small parts that fall into a tray: how much energy they gain, at most, and that they fell.
+/// Four small parts fall into a tray. Measures the most energy that they gain, and that they fell.
 Scenario tray()
 {
     scene::Description scene = lone_cube(scene::Turning::free);
@@ -130,8 +130,8 @@ Scenario tray()
     return scenario;
 }
 
-/// A hand that pushes a rough cube off its middle, so that it turns while it slides on its plane:
-/// how far it leaves the plane, and how far it is behind the hand.
+/// A hand pushes a rough cube beside its middle, so that it rotates while it slides on its plane.
+/// Measures how far the cube leaves the plane, and how far it is behind the hand.
 Scenario off_centre_push_with_friction()
 {
     constexpr double speed = 0.05, aside = 0.008;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Parts of a tick, each by itself: for whoever changes one. The numbers are this machine's and
-// nobody's targets.
+// Parts of a tick, each timed alone, as a help for changes. The numbers hold for one machine and
+// are no targets.
 #include "scene/collide/box_box.hpp"
 #include "scene/collide/sphere_box.hpp"
 #include "scene/world.hpp"

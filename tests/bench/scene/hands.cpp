@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What hands do to a cube.
+// Hands that press and push a cube.
 #include "tests/bench/scene/reference.hpp"
 #include "tests/bench/scene/scenario.hpp"
 
@@ -18,7 +18,7 @@ constexpr double reach = 0.025; // from a cube's centre to a hand's that just to
 
 double sign_of(std::uint32_t hand) { return hand == 0 ? -1.0 : 1.0; }
 
-/// Two hands that stand still and press a cube at the origin so deep.
+/// Two resting hands that press a cube at the origin to this depth.
 std::function<scene::HandInput(std::uint32_t, double)> squeeze(double left_m, double right_m)
 {
     return [left_m, right_m](std::uint32_t hand, double) {

@@ -55,7 +55,7 @@ std::vector<Entry> entries_but(std::span<const Subject> subjects,
     return entries;
 }
 
-/// The deepest overlap during a course, and at its end.
+/// Returns the deepest overlap during a course, and at its end.
 std::vector<Row> penetration(const Course& course, std::span<const Entry> entries,
                              const Question& question)
 {
@@ -169,7 +169,7 @@ Course stiff_hands()
     course.scene.hands = {
         .stiffness_n_per_m = 1e6, .damping_ns_per_m = 2.0, .force_max_n = 1e4, .count = 8};
     course.hands = [](std::uint32_t hand, double time_s) {
-        // One on every face and a second one on two, beside the centre, each with its own rhythm.
+        // One hand on every face and a second on two, beside the centre, each with its own period.
         const bool is_second = hand >= 6;
         const int axis = is_second ? 0 : static_cast<int>(hand % 3);
         const double sign = (is_second ? hand == 6 : hand < 3) ? -1.0 : 1.0;
@@ -186,7 +186,7 @@ Course stiff_hands()
 
 std::vector<Row> measure_heaps(std::span<const Subject> subjects, bool is_quick)
 {
-    // Milliseconds a step and more: the direct solver of ODE, and MuJoCo, which knows no islands.
+    // Engines that need milliseconds per step: ODE's direct solver, and MuJoCo without islands.
     const std::initializer_list<std::string_view> slow{"ode-step", "mujoco"}, slowest{"ode-step"};
     const auto timed = entries_but(subjects, slow);
     const auto many = is_quick ? timed : entries_but(subjects, slowest);

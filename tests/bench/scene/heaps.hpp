@@ -18,11 +18,11 @@ namespace hapnet::bench {
 /// Cubes in ten rows; each row has one less than the row below it.
 [[nodiscard]] Course pyramid();
 
-/// A cube that eight stiff hands hold, one on every face and two more, each swinging a little.
+/// A cube held by eight stiff hands: one on every face and two more. Each swings a little.
 [[nodiscard]] Course stiff_hands();
 
-/// What many bodies do to each other at worst: how deep they lie within each other, and what the
-/// most expensive steps cost.
+/// Measures the worst effects of many bodies on each other: the deepest overlaps, and the cost of
+/// the most expensive steps.
 [[nodiscard]] std::vector<Row> measure_heaps(std::span<const Subject> subjects, bool is_quick);
 
 } // namespace hapnet::bench

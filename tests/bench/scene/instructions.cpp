@@ -13,14 +13,14 @@ namespace hapnet::bench {
 
 namespace {
 
-constexpr int few_steps = 300, many_steps = 1300; // what both have in common falls out
+constexpr int few_steps = 300, many_steps = 1300; // the common part cancels in the difference
 
 Course course_of(bool is_locked)
 {
     return paper_course(is_locked ? scene::Turning::locked : scene::Turning::free);
 }
 
-/// Of a whole run under callgrind; nullopt when it did not work.
+/// The instructions of a whole run under callgrind; nullopt when it did not work.
 std::optional<double> collected(const std::string& command)
 {
     FILE* const pipe = popen(command.c_str(), "r");
@@ -79,7 +79,7 @@ bool spin(const std::string& subject, bool is_locked, int steps)
     if (found == all.end()) return false;
     const Course course = course_of(is_locked);
     const EngineOptions options;
-    std::vector<scene::HandInput> inputs; // as many for few steps as for many: not counted
+    std::vector<scene::HandInput> inputs; // equal for few and many steps: not counted
     for (int i = 0; i < many_steps; ++i) {
         for (std::uint32_t hand = 0; hand < course.scene.hands.count; ++hand) {
             inputs.push_back(course.hands(hand, options.tick_s * i));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What a cube does alone: fly, slide, tumble, and be pushed beside its centre.
+// A cube alone: it flies, slides, tumbles, or is pushed beside its centre.
 #include "tests/bench/scene/reference.hpp"
 #include "tests/bench/scene/scenario.hpp"
 

@@ -24,13 +24,13 @@ constexpr std::size_t bodies_at_most = 250;
 constexpr std::size_t contacts_per_body = 12; // of a box in a heap; beyond that it warns
 constexpr std::size_t rows_per_contact = 3;   // of its Jacobian: the normal and two tangents
 
-long warnings = 0; // of MuJoCo about itself: contacts left out, accelerations beyond reason
+long warnings = 0; // warnings of MuJoCo: contacts left out, accelerations out of range
 
 void count_warning(const char*) { ++warnings; }
 
 bool hear_warnings()
 {
-    mju_user_warning = count_warning; // its own would write a file here
+    mju_user_warning = count_warning; // MuJoCo's own handler would write a file here
     return true;
 }
 
@@ -48,8 +48,8 @@ glm::dvec3 from_numbers(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 
 /// The reference motion of a contact, in MuJoCo's words (solref): a spring and a damper that bring
 /// two bodies apart. Without restitution it is as stiff as its manual allows for the tick. MuJoCo
-/// has no coefficient of restitution: an under-damped spring gives back that share of the speed,
-/// the more exactly, and the deeper, the more ticks half a period takes.
+/// has no coefficient of restitution: an under-damped spring gives back that share of the speed.
+/// The more ticks half a period takes, the more exact and the deeper the bounce.
 std::string reference_of(const scene::Material& material, const EngineOptions& options)
 {
     if (material.restitution <= 0.0) return fmt::format("{:.17g} 1", 2.0 * options.tick_s);
@@ -95,12 +95,12 @@ private:
     [[nodiscard]] std::size_t stack_of(std::size_t contacts) const
     {
         const std::size_t rows = rows_per_contact * contacts, columns = 6 * scene_.bodies.size();
-        // Numbers, not bytes: what its solver and its collision of many bodies asked for, doubled.
+        // In numbers, not bytes: twice the need of its solver and its collision of many bodies.
         return 100'000 + 128 * (rows + columns) + 2 * columns * (columns + rows);
     }
 
-    /// One friction and restitution for a thing; of two that touch MuJoCo takes the greater
-    /// friction, and in the scenes here both have the same.
+    /// One friction and restitution for each thing. MuJoCo takes the greater friction of two that
+    /// touch. In the scenes here both are equal.
     [[nodiscard]] std::string skin(const scene::Material& material) const
     {
         const bool is_smooth = material.friction == 0.0;
@@ -120,7 +120,7 @@ private:
                            skin(plane.material));
     }
 
-    /// Only the coordinates that it has: what is locked is not there.
+    /// Only free coordinates: locked ones do not exist in the model.
     [[nodiscard]] std::string joints(scene::BodyId id) const
     {
         const auto& body = scene_.bodies[id];
@@ -179,7 +179,7 @@ struct DeleteData {
 using Model = std::unique_ptr<mjModel, DeleteModel>;
 using Data = std::unique_ptr<mjData, DeleteData>;
 
-/// It reads files alone, and takes this one from memory.
+/// MuJoCo reads only files. This one is in memory.
 Model compile(const std::string& text)
 {
     constexpr const char* name = "scene.xml";
@@ -324,8 +324,8 @@ private:
     std::array<glm::dvec3, scene::hands_max> forces_{};
 };
 
-/// It could turn about one axis of the world by a hinge, which no scene here asks for. It has no
-/// kinematic bodies: its mocap bodies are moved, and have no velocity where they touch.
+/// A hinge could turn a body about one axis of the world, but no scene here needs that. MuJoCo's
+/// mocap bodies are not kinematic: they move, but have no velocity where they touch.
 bool can_run(const scene::Description& scene)
 {
     const auto is_known = [](const scene::BodyDescription& body) {

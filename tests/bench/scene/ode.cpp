@@ -13,9 +13,9 @@ namespace hapnet::bench {
 namespace {
 
 constexpr int contacts_max = 4;
-constexpr double locked_inertia = 1e6; // times its own: ODE has no other way to lock a body
+constexpr double locked_inertia = 1e6; // times the body's own: ODE has no other way to lock a body
 
-long complaints = 0; // of ODE about itself: its direct solver's "LCP internal error"
+long complaints = 0; // internal errors that ODE reported: "LCP internal error" of its direct solver
 
 void count_complaint(int, const char*, va_list) { ++complaints; }
 
@@ -31,7 +31,7 @@ std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 glm::dvec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
 
-/// What a geometry needs to be known of when it touches something.
+/// Data of a geometry that its contacts need.
 struct Skin {
     scene::Material material;
     bool is_hip = false;
@@ -115,9 +115,9 @@ public:
     }
 
 private:
-    /// The cheapest for that number of geometries: all pairs, or sweep and prune, up last. Measured
-    /// in November 2026: from 24 geometries on the sweep is cheaper, and with 1000 it takes 0.2 to
-    /// 0.5 of what the hash space takes, which most programs choose.
+    /// The cheapest space for this number of geometries: all pairs, or sweep and prune, the
+    /// vertical axis last. From 24 geometries on the sweep is cheaper. With 1000 it takes 0.2 to
+    /// 0.5 of the time of the hash space, which most programs choose.
     static dSpaceID space_for(const scene::Description& scene, const EngineOptions& options)
     {
         constexpr std::size_t few = 24;

@@ -24,7 +24,7 @@ struct Placed {
     }
 };
 
-/// How far two boxes overlap along a direction; negative when they are apart.
+/// The depth to which two boxes overlap along a direction; negative when they are apart.
 double overlap_along(const glm::dvec3& direction, const Placed& a, const Placed& b)
 {
     const double length = glm::length(direction);

@@ -6,9 +6,9 @@
 
 namespace hapnet::bench {
 
-/// How deep the bodies lie within each other and within the planes, at the deepest, m; 0 when
-/// nothing overlaps. Computed from where an engine says that they are, not from its contacts: of
-/// two boxes the shortest way that parts them (separating axes).
+/// Returns the deepest overlap of bodies with each other and with planes, m; 0 without overlap. It
+/// follows from the poses that an engine reports, not from its contacts. For two boxes it is the
+/// shortest way that separates them (separating axes).
 [[nodiscard]] double deepest_overlap(const scene::Description& scene, const Engine& engine);
 
 } // namespace hapnet::bench

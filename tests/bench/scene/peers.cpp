@@ -11,7 +11,7 @@ namespace hapnet::bench {
 namespace {
 
 #ifdef HAPNET_BENCH_BULLET
-/// Loaded into a namespace of its own, and never unloaded.
+/// Loads the module into a namespace of its own, and never unloads it.
 MakeEngine* load(const char* path)
 {
     void* const module = dlmopen(LM_ID_NEWLM, path, RTLD_NOW | RTLD_LOCAL);

@@ -14,7 +14,7 @@ namespace hapnet::bench {
 
 using Hips = std::array<scene::HandInput, scene::hands_max>;
 
-/// The hands before anyone has said where they are.
+/// Hands before their first place is set.
 [[nodiscard]] inline Hips absent_hips()
 {
     Hips hands;
@@ -44,7 +44,7 @@ struct Dent {
                       hands.force_max_n);
 }
 
-/// The sphere's centre may lie within the box.
+/// Works also for a sphere whose centre is within the box.
 [[nodiscard]] inline Dent dent_in(const scene::BodyState& body, const glm::dvec3& half,
                                   const scene::HandInput& hip, double radius_m)
 {
@@ -82,9 +82,9 @@ struct Dent {
     return {push_of(dent, hands) * dent.normal, dent.point};
 }
 
-/// The hands of an engine that knows none: forces that are held for a step, from the state at its
-/// start, on the first body and on planes that hands feel. With friction each hand has a proxy on
-/// the body that a second spring, as stiff and as damped, draws along, as in CHAI3D.
+/// Hands for an engine that has none: forces from the state at a step's start, held for the step,
+/// on the first body and on planes that hands feel. With friction, a second spring, with the same
+/// stiffness and damping, connects each hand to a proxy on the body, as in CHAI3D.
 class HeldHands {
 public:
     explicit HeldHands(const Translation& all)
@@ -99,7 +99,7 @@ public:
     void set(std::uint32_t index, const scene::HandInput& input) { hips_[index] = input; }
     [[nodiscard]] const Hips& hips() const { return hips_; }
 
-    /// On the first body.
+    /// Returns the force of a hand on the first body.
     [[nodiscard]] Load on_body(std::uint32_t index, const scene::BodyState& body)
     {
         const scene::HandInput& hip = hips_[index];
@@ -114,7 +114,7 @@ public:
         return {push * dent.normal + pull(index, body, dent, push), dent.point};
     }
 
-    /// On the planes that hands feel.
+    /// Returns the force of a hand on the planes that hands feel.
     [[nodiscard]] glm::dvec3 on_planes(std::uint32_t index) const
     {
         glm::dvec3 force{0.0};
@@ -135,7 +135,7 @@ private:
         glm::dvec3 at{0.0}; // in the body's frame
     };
 
-    /// Along the surface; where it is more than friction holds, the proxy follows.
+    /// Returns the pull along the surface. The proxy follows where the pull exceeds the friction.
     glm::dvec3 pull(std::uint32_t index, const scene::BodyState& body, const Dent& dent,
                     double push)
     {
@@ -170,7 +170,7 @@ private:
     std::array<Proxy, scene::hands_max> proxies_{};
 };
 
-/// What the fields of a scene do to a body at a moment, N. Their regions have no end here.
+/// The force of a scene's fields on a body at one moment, N. The fields have no bounds here.
 [[nodiscard]] inline glm::dvec3 force_of_fields(const scene::Description& scene,
                                                 const scene::BodyState& body)
 {

@@ -8,12 +8,11 @@ namespace hapnet::bench {
 
 namespace {
 
-// A hand's touch begins and ends within a step, where the order is lost: the steps are shorter
-// then.
+// The order of the method is lost in steps in which a touch begins or ends, so these are shorter.
 constexpr double free_step_s = 2e-5;
 constexpr double touched_step_s = 5e-7;
 
-/// A body's state with its angular momentum, and as well what changes of it in a second.
+/// A body's state with its angular momentum; also its rate of change.
 struct Motion {
     glm::dvec3 position{0.0};
     glm::dvec3 velocity{0.0};
@@ -31,7 +30,7 @@ struct Motion {
     }
 };
 
-/// Of a solid box, about its own axes.
+/// The moments of inertia of a solid box about its own axes.
 glm::dvec3 moments_of(const scene::BodyDescription& body)
 {
     const glm::dvec3 square = body.half * body.half;

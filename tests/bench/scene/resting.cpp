@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What cubes do to each other: hit and carry.
+// Cubes that hit and carry each other.
 #include "tests/bench/scene/scenario.hpp"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ Scenario stack(double duration_s)
     scene.bodies.clear();
     for (int i = 0; i < count; ++i) {
         scene.bodies.push_back(cube());
-        // Not quite above each other: edges that meet exactly are nobody's usual case.
+        // Not quite above each other, because exactly matching edges are rare in practice.
         scene.bodies.back().position = {
             {i % 2 == 0 ? -1e-4 : 1e-4, 0.04 * i, i % 3 == 0 ? -1e-4 : 5e-5}};
     }

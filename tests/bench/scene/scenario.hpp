@@ -6,14 +6,14 @@
 
 namespace hapnet::bench {
 
-/// A number that a run gave, and what Hapnet's has to stay below.
+/// A figure of a run, and the limit for Hapnet's value.
 struct Measure {
     std::string metric; // with its unit: "error_m"
     double value = 0.0;
     std::optional<double> target;
 };
 
-/// A course whose end is known, and how far an engine is from it.
+/// A course whose end is known, and the error of an engine.
 struct Scenario {
     std::string name;
     std::string reference; // what the error is against: "analytic", "rk4", "itself" at the start
@@ -26,11 +26,11 @@ struct Scenario {
     bool is_flight = false;      // also run with an integrator of fourth order
 };
 
-/// The cube of every scene here: 40 mm, 0.1 kg, friction 0.3.
+/// The cube of all these scenes: 40 mm, 0.1 kg, friction 0.3.
 [[nodiscard]] scene::BodyDescription cube();
 /// The platform on which a cube at the origin rests, with friction 0.3.
 [[nodiscard]] scene::PlaneDescription platform();
-/// The i-th of so many orientations that lie evenly among all.
+/// The i-th of `count` evenly distributed orientations.
 [[nodiscard]] glm::dquat even_turn(int i, int count);
 /// A cube and no more: no gravity, no hands.
 [[nodiscard]] scene::Description lone_cube(scene::Turning turning);
@@ -40,8 +40,8 @@ struct Scenario {
 [[nodiscard]] Scenario slide(double degrees, scene::Turning turning);
 [[nodiscard]] Scenario tumble();
 [[nodiscard]] Scenario off_centre_push();
-/// A cube that bounces off a hand of a stiffness, hit off its centre by so much, after flying so
-/// far.
+/// A cube that bounces off a hand of this stiffness, hit at a distance from its centre after a
+/// flight.
 [[nodiscard]] Scenario bounce(double stiffness_n_per_m, double offset_m, scene::Turning turning,
                               double gap_m = 1.23e-4);
 [[nodiscard]] Scenario steady_push(scene::Turning turning);
@@ -51,13 +51,13 @@ struct Scenario {
 [[nodiscard]] Scenario asymmetric_squeeze(scene::Turning turning);
 [[nodiscard]] Scenario wall(double restitution, scene::Turning turning);
 [[nodiscard]] Scenario stack(double duration_s);
-/// The stack in ticks so long that each engine is at or beyond the end of what it can do.
+/// The stack in ticks at or beyond the limits of each engine.
 [[nodiscard]] Scenario stack_in_long_ticks();
-/// The steady push on each engine's own plane, in place of what makes the better contacts.
+/// The steady push on each engine's own plane, instead of the body that makes better contacts.
 [[nodiscard]] Scenario steady_push_on_own_plane();
 
-/// One for each thing that a scene may have beside these: spheres, capsules, bodies of several
-/// parts, fields, kinematic bodies, planes that hands feel, and hands with friction.
+/// One scenario for each other element of a scene: spheres, capsules, bodies of several parts,
+/// fields, kinematic bodies, planes that hands feel, and hands with friction.
 [[nodiscard]] std::vector<Scenario> element_scenarios();
 /// Everyday scenes that are no engine's best case.
 [[nodiscard]] std::vector<Scenario> everyday_scenarios();
@@ -66,7 +66,7 @@ struct Scenario {
 /// and has dry friction.
 [[nodiscard]] Course paper_course(scene::Turning turning);
 
-/// All of them, in the order of the specification.
+/// All scenarios, in the order of the specification.
 [[nodiscard]] std::vector<Scenario> all_scenarios(bool is_quick);
 
 } // namespace hapnet::bench

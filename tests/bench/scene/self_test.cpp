@@ -19,7 +19,7 @@
 namespace hapnet::bench {
 namespace {
 
-/// An engine in which nothing ever moves: whatever it comes to must be found wrong.
+/// An engine in which nothing ever moves: every scenario must find an error.
 class Idle final : public Engine {
 public:
     explicit Idle(const scene::Description& scene) : scene_{scene} {}
@@ -45,7 +45,7 @@ std::unique_ptr<Engine> make_idle(const scene::Description& scene, const EngineO
 
 const Subject idle{"idle", own_family, false, make_idle};
 
-/// An engine in which everything flies straight on, through everything.
+/// An engine in which bodies fly straight on, through each other.
 class Ghost final : public Engine {
 public:
     Ghost(const scene::Description& scene, double tick_s) : scene_{scene}, tick_s_{tick_s} {}
@@ -82,7 +82,7 @@ bool has_missed(const Scenario& scenario)
 TEST(Scenarios, AreMissedByAnEngineThatDoesNothing)
 {
     for (const Scenario& scenario : all_scenarios(true)) {
-        // Rest is what these ask for, and rest is all that it can do.
+        // These scenarios ask for rest, which is all that the engine can do.
         if (scenario.reference == "itself") continue;
         const auto measures = [&] {
             Idle engine{scenario.course.scene};
@@ -101,7 +101,7 @@ TEST(Scenarios, TellHowFarAnEngineIsFromTheAnswer)
 {
     const Scenario fall = ballistic();
     Idle engine{fall.course.scene};
-    const double expected = std::hypot(0.3, 2.0 - 9.81 / 2.0, 0.1); // where it should be by then
+    const double expected = std::hypot(0.3, 2.0 - 9.81 / 2.0, 0.1); // its true place by then
     EXPECT_DOUBLE_EQ(fall.measure(engine, fall.course, 1e-3)[0].value, expected);
     const Scenario stop = slide(45.0, scene::Turning::free);
     Idle still{stop.course.scene};
@@ -121,7 +121,7 @@ TEST(Reference, ReturnsACubeFromASpringAfterHalfAPeriod)
 {
     Scenario bouncing = bounce(1000.0, 0.0, scene::Turning::free);
     const auto end = reference_end(bouncing.course);
-    // Up to the spring in 1.23 ms, half a period of sqrt(m/k) = 10 ms in it, back at its speed.
+    // 1.23 ms to the spring, half a period of sqrt(m/k) = 10 ms in it, back at the same speed.
     const double half_period = 0.01 * std::acos(-1.0);
     EXPECT_NEAR(end.velocity.x(), 0.1, 1e-10);
     EXPECT_NEAR(end.position.x(), 0.1 * (0.05 - 2.0 * 1.23e-3 - half_period), 1e-10);
@@ -208,7 +208,7 @@ TEST(Overlap, IsTheShortestWayApart)
     EXPECT_NEAR(deepest_overlap(scene, Idle{scene}), 0.001, 1e-15);
     scene.bodies[1].position = {{0.041, 0.0, 0.0}};
     EXPECT_EQ(deepest_overlap(scene, Idle{scene}), 0.0);
-    // An edge of each crosses the other's, along the diagonals of their faces.
+    // An edge of each box crosses an edge of the other, along the diagonals of their faces.
     const double turn = std::acos(-1.0) / 8.0;
     scene.bodies[0].orientation = {std::cos(turn), 0.0, 0.0, std::sin(turn)};
     scene.bodies[1].orientation = {std::cos(turn), 0.0, std::sin(turn), 0.0};
@@ -227,7 +227,7 @@ TEST(Heaps, BeginWithNothingInsideAnything)
     }
 }
 
-/// How often Hapnet's guards act while it plays some courses.
+/// Returns how often Hapnet's guards act in some courses.
 std::uint64_t guards_in(std::span<const Course> courses)
 {
     const std::uint64_t before = hapnet_guards();
@@ -253,7 +253,7 @@ TEST(Guards, ActInNoHeapOfTheBench)
 TEST(Heaps, OverlapLessThanThoseOfTheEngines)
 {
     const Course course = bin(200, 0.3);
-    // In the last tenth of a second together, since what one tick shows is a matter of chance.
+    // Over the last tenth of a second, because single ticks vary by chance.
     const auto deepest_and_late = [&](Engine& engine) {
         double deepest = 0.0, late = 0.0;
         run(engine, course, 1e-3, [&](double time_s) {
@@ -265,7 +265,7 @@ TEST(Heaps, OverlapLessThanThoseOfTheEngines)
     };
     const auto [deepest, late] = deepest_and_late(*make_hapnet(course.scene, {}));
     for (const Subject& subject : subjects()) {
-        // The others take many times as long.
+        // The other engines take many times as long.
         if (subject.name != "bullet" && subject.name != "ode-quick") continue;
         const auto engine = subject.make(course.scene, {});
         const auto its = deepest_and_late(*engine);
@@ -418,7 +418,7 @@ TEST(Peers, PlayEveryElementThatTheyHave)
                 EXPECT_EQ(subject.name, "mujoco") << scenario.name; // no kinematic bodies
                 continue;
             }
-            // Within a part of what it has to do: ODE's friction is no circle.
+            // The tolerance is a share of the motion, because ODE's friction is not a circle.
             const double error = scenario.measure(*engine, scenario.course, 1e-3)[0].value;
             EXPECT_LT(error, 0.35 * missed) << scenario.name << ": " << subject.name;
         }

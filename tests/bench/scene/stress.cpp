@@ -26,7 +26,7 @@ std::vector<Row> ask(const Question& question, std::span<const Subject> subjects
     return compare(question, readings);
 }
 
-/// The worst of some bounces that begin at different moments of a tick.
+/// The largest error of bounces that begin at different moments of a tick.
 double worst_bounce(const Entry& entry, double stiffness, scene::Turning turning, int phases)
 {
     constexpr double way_of_a_tick = 0.1 * tick_s; // metres
@@ -72,7 +72,7 @@ std::vector<Row> bounces(std::span<const Subject> subjects, scene::Turning turni
     return compare(question, readings);
 }
 
-/// How far the upper of two cubes has moved after 5 s, m, when it is so many times heavier.
+/// How far the upper of two cubes moves in 5 s, m, when it is `ratio` times as heavy.
 double heavy_on_light(const Subject& subject, double ratio)
 {
     scene::Description scene = lone_cube(scene::Turning::free);
@@ -153,8 +153,8 @@ std::vector<Row> tunnelling(std::span<const Subject> subjects)
 
 constexpr int shots = 64; // at a wall, each in another orientation and at another phase of a tick
 
-/// Whether the i-th of the cubes of 10 mm that fly at a fixed wall comes through it. Every second
-/// one spins.
+/// True if the i-th of the cubes of 10 mm passes the fixed wall at which it flies. Every second
+/// cube spins.
 bool passes_wall(const Subject& subject, int i, double speed, double thickness)
 {
     constexpr double half = 0.005, extent = 0.5, clear = 0.01;

@@ -6,15 +6,15 @@
 
 namespace hapnet::bench {
 
-/// How far each engine can be driven: stiff springs, heavy on light, long ticks, fast bodies, and
-/// for Hapnet inputs that make no sense (ODE aborts on those, so no peer gets them).
+/// Measures the limits of each engine: stiff springs, heavy bodies on light ones, long ticks, fast
+/// bodies, and for Hapnet meaningless inputs, on which ODE aborts, so no peer gets them.
 [[nodiscard]] std::vector<Row> measure_limits(std::span<const Subject> subjects, bool is_quick);
 
-/// How many cubes of 10 mm come through a wall, of 64 in different orientations and four walls, at
-/// speeds up to 1000 m/s. Every second one spins.
+/// Counts cubes of 10 mm that pass a wall: 64 in different orientations and four walls, at speeds
+/// up to 1000 m/s. Every second cube spins.
 [[nodiscard]] std::vector<Row> turned_cubes(std::span<const Subject> subjects);
 
-/// The largest of the trials, in their order, up to which every one holds; 0 when the first fails.
+/// Returns the largest of the ascending trials up to which all hold; 0 when the first fails.
 [[nodiscard]] double last_held(std::span<const double> trials,
                                const std::function<bool(double)>& holds);
 

@@ -6,7 +6,7 @@
 
 namespace hapnet::bench {
 
-/// A body as an engine wants it: where its mass is, and its parts around that.
+/// A body in the form that engines need: its mass frame, and its parts in that frame.
 struct Solid {
     scene::MassFrame frame;
     glm::dvec3 moments{0.0}; // of inertia about the frame's axes, kg m^2
@@ -15,8 +15,8 @@ struct Solid {
     [[nodiscard]] bool is_box() const { return parts.size() == 1 && parts[0].rounding == 0.0; }
 };
 
-/// What Hapnet computes of a scene before it is given to a peer. A module of its own has no other
-/// part of Hapnet's library.
+/// Hapnet's computations on a scene for a peer engine. An engine in a module contains no other part
+/// of Hapnet's library.
 struct Translation {
     scene::Description scene;
     std::vector<Solid> solids;           // of the bodies

@@ -12,19 +12,19 @@
 
 namespace hapnet::bench {
 
-/// Cases take turns in blocks of so many turns.
+/// Cases take turns in blocks of this number of turns.
 inline constexpr int turns_a_block = 1000;
 
-/// The players of a session, each of whom gets in its next tick what the others have sent in this
-/// one: no emulator between them. Times the turns of the last.
+/// The players of a session without an emulator: each gets in its next tick what the others sent in
+/// this tick. The turns of the last player are timed.
 class Circle {
 public:
     using Bytes = std::vector<std::byte>;
 
     explicit Circle(const lab::virtual_time::Setting& setting);
 
-    /// A tick of all; what the last one's turn took, with everything from opening what has arrived
-    /// to sealing what it sends, ns.
+    /// Plays a tick of all. Returns the time of the last player's turn, from opening received
+    /// messages to sealing those that it sends, ns.
     double turn();
     [[nodiscard]] lab::virtual_time::VirtualPlayer& measured() { return players_.back(); }
     [[nodiscard]] base::TimePoint now() const { return now_; }
@@ -38,7 +38,7 @@ private:
     };
     void play(std::size_t seat);
 
-    std::deque<lab::virtual_time::VirtualPlayer> players_; // which stay where they are
+    std::deque<lab::virtual_time::VirtualPlayer> players_; // grows without moving its elements
     std::vector<std::vector<Passing>> inboxes_;
     Bytes newest_;
     base::TimePoint now_{std::chrono::seconds{1000}};

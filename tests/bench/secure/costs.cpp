@@ -35,7 +35,7 @@ Setting setting_of(bool is_keyed)
     return setting;
 }
 
-/// Two associations that share a circle, for what a side does besides its turns.
+/// Two associations that share a circle, for the costs of a side besides its turns.
 secure::StaticKeys keys_of(const secure::KeyFile& file)
 {
     return file.keys_with(file.others.front());
@@ -68,7 +68,7 @@ struct HandshakeCost {
     double longest_tick_ns = 0.0;
 };
 
-/// Until both have a key: the time in both sides' calls.
+/// Runs both sides until both have a key, and times their calls.
 HandshakeCost handshake(std::uint8_t seed)
 {
     auto both = associations(seed);
@@ -124,7 +124,7 @@ std::vector<double> times_of_a_state(int count)
     return times;
 }
 
-/// A changed state under a key in use, with a number that may come, ns.
+/// The time to reject a changed state with a key in use and an acceptable number, ns.
 std::vector<double> times_of_a_forgery(int count)
 {
     Circle pair{setting_of(true)};

@@ -25,7 +25,7 @@ constexpr int turns_until_hands_are_on = 5000; // handshakes, the agreed start, 
 constexpr std::array<std::size_t, 4> numbers{2, 3, 5, 8};
 constexpr double added_by_a_peer_us = 1.5; // at most, and as much again by its keys
 
-/// One of 2 to 8 who carry the paper's cube.
+/// One of 2 to 8 peers who carry the paper's cube.
 Setting carrying(std::size_t peers, bool is_keyed)
 {
     Setting setting;
@@ -39,8 +39,8 @@ Setting carrying(std::size_t peers, bool is_keyed)
     return setting;
 }
 
-/// Eight cubes in a row that spin without friction, so that each message has all of them; two hands
-/// turn the first.
+/// Eight cubes in a row that spin without friction, so that each message contains all of them. Two
+/// hands turn the first.
 Setting turning_eight()
 {
     Setting setting = carrying(2, false);
@@ -97,7 +97,7 @@ Row turn_row(std::string name, bool is_keyed, double value_us)
 std::vector<Row> measure_turns_of_many(int blocks)
 {
     const double clock = clock_cost_ns();
-    std::deque<Case> cases; // which stay where they are
+    std::deque<Case> cases; // grows without moving its elements
     for (const std::size_t peers : numbers) {
         for (const bool is_keyed : {false, true})
             cases.emplace_back(peers, is_keyed, carrying(peers, is_keyed));
@@ -114,7 +114,7 @@ std::vector<Row> measure_turns_of_many(int blocks)
                                         : fmt::format("a turn of one of {} peers, T7", one.peers),
                                 one.is_keyed, 1e-3 * (quantile(one.times_ns, 0.5) - clock)));
     }
-    // From two to eight: the first two cases and the last two of T7.
+    // The cost per added peer: from the first two cases and the last two of T7.
     const auto added_us = [&](std::size_t keyed) {
         const double further = static_cast<double>(numbers.back() - numbers.front());
         return (rows[2 * (numbers.size() - 1) + keyed].value - rows[keyed].value) / further;

@@ -8,9 +8,9 @@
 
 namespace hapnet::bench {
 
-/// What a turn of one of 2 to 8 peers takes that carry a cube, without keys and with, and what each
-/// further peer adds; and a turn of one of two that share eight bodies, all of which turn. Each in
-/// `blocks` blocks of a thousand turns in which the cases take turns.
+/// Measures the turn of one of 2 to 8 peers that carry a cube, with and without keys, and the cost
+/// of each added peer; and the turn of one of two that share eight rotating bodies. The cases take
+/// turns in `blocks` blocks of a thousand turns.
 [[nodiscard]] std::vector<Row> measure_turns_of_many(int blocks);
 
 } // namespace hapnet::bench

@@ -10,7 +10,7 @@
 
 namespace hapnet::conformance {
 
-/// The fake libdhd, reached for its fate the way the backend reaches it for its devices.
+/// The fake libdhd. A test sets its state through the same loader as the backend.
 class FakeDhd {
 public:
     FakeDhd() : library_{dlopen(HAPNET_FAKE_DHD, RTLD_NOW | RTLD_LOCAL)}

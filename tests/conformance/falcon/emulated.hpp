@@ -7,7 +7,7 @@
 
 namespace hapnet::conformance {
 
-/// A testbed with a fake Falcon on its bus, and somebody who holds its grip in the middle.
+/// A testbed with a fake Falcon on its bus, and a person who holds its grip in the middle.
 struct EmulatedFalcon {
     explicit EmulatedFalcon(std::string kernel_driver = "")
         : usb{testbed, description(std::move(kernel_driver)), falcon}

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t centre_button = 0x4;
 
-/// Through unmodified libusb.
+/// The backend through unmodified libusb.
 class FalconSubject final : public Subject {
 public:
     FalconSubject() : due_{net::monotonic_now()} {}
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] base::TimePoint now() override { return net::monotonic_now(); }
     void pass(base::Duration duration) override
     {
-        // What came too late does not make the next one early.
+        // A late step must not make the next one early.
         due_ = std::max(due_ + duration, net::monotonic_now());
         net::sleep_until(due_);
     }

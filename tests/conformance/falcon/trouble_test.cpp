@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What only a Falcon can meet, through unmodified libusb.
+// Faults that only a Falcon has, through unmodified libusb.
 #include "device/falcon/transport/falcons.hpp"
 #include "device/governor.hpp"
 #include "tests/conformance/falcon/emulated.hpp"
@@ -30,7 +30,7 @@ using device::falcon::Counts;
 using device::falcon::find_falcons;
 using device::falcon::open_falcon;
 
-/// A file for one test, gone with it.
+/// A file for one test, removed with it.
 class File {
 public:
     explicit File(std::span<const std::byte> bytes)
@@ -48,7 +48,7 @@ private:
     std::string path_;
 };
 
-/// This thread may only what a user may who owns no more than what is root's.
+/// Drops the capabilities of this thread, so that file modes bind root like other users.
 class WithoutRootsRights {
 public:
     WithoutRootsRights()
@@ -69,7 +69,7 @@ private:
 
 class Falcon : public ::testing::Test {
 protected:
-    /// Reads and applies as fast as it goes, for so long.
+    /// Reads and applies as fast as possible for a duration.
     device::Sample play(device::Device& falcon, base::Duration duration,
                         const device::GovernedForce& force = {})
     {
@@ -108,7 +108,7 @@ TEST_F(Falcon, IsFoundByItsSerialAndSaidToBeUnmet)
     EXPECT_EQ(found[0].identity.serial, "FALC0001");
     EXPECT_EQ(found[0].identity.note, "never run on the physical device");
     EXPECT_FALSE(found[0].unusable) << found[0].unusable->message;
-    EXPECT_TRUE(emulated_.usb.kernel_has_it()); // who only looks takes nothing
+    EXPECT_TRUE(emulated_.usb.kernel_has_it()); // looking at it claims nothing
     EXPECT_TRUE(open_falcon("usb-1-2", ""));    // its port is a name, too
     const auto other = open_falcon("FALC0002", "");
     ASSERT_FALSE(other);
@@ -270,7 +270,7 @@ TEST_F(Falcon, IsHaltedAgainWhereAForceHasOvertakenTheFirstHalt)
     ASSERT_TRUE(falcon);
     const std::uint64_t before = play(*falcon, 20ms, a_push).sequence;
     while (falcon->read(net::monotonic_now()).sequence == before) {} // it may be told something now
-    // The loop hangs between two of its lines, twice, and calls nothing meanwhile.
+    // The loop hangs twice between two calls of the device.
     for (int i = 0; i < 5; ++i) {
         falcon->halt();
         net::sleep_until(net::monotonic_now() + 2ms);
@@ -308,8 +308,8 @@ TEST_F(Falcon, GoesOnUnderTheHaltsOfAnotherThreadUntilTheLastOne)
 
 TEST_F(Falcon, IsHeardFromAtLeast200TimesASecond)
 {
-    // Emulated: it says nothing of a real one's rate. The best of some stretches, as what else runs
-    // on the machine may stop this for a while.
+    // The device is emulated, so this says nothing about the rate of a real one. The best of
+    // several stretches counts, because other load may stop this process for a while.
     auto falcon = open_homed();
     ASSERT_TRUE(falcon);
     std::uint64_t rate = 0;

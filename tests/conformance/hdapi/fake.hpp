@@ -13,7 +13,7 @@
 
 namespace hapnet::conformance {
 
-/// The fake libHD, reached for its fate the way the backend reaches it for its devices.
+/// The fake libHD. A test sets its state through the same loader as the backend.
 class Fake {
 public:
     Fake() : library_{dlopen(HAPNET_FAKE_HD, RTLD_NOW | RTLD_LOCAL)}

@@ -39,7 +39,7 @@ protected:
     }
     [[nodiscard]] device::Device& device(std::size_t i = 0) { return *devices_.at(i); }
 
-    /// Reads every millisecond until the sample is as wanted; at most 5 s.
+    /// Reads every millisecond until the sample meets the condition; at most 5 s.
     template <typename Condition>
     bool read_until(Condition is_wanted)
     {
@@ -49,7 +49,7 @@ protected:
         }
         return false;
     }
-    /// All frames of the first device, once there are more than so many; what there are after 5 s.
+    /// Returns all frames of the first device, once there are more than `count`, or those of 5 s.
     [[nodiscard]] std::vector<FakeHdCommand> frames_beyond(std::size_t count) const
     {
         for (int i = 0; i < 5000 && fake_.commands(0).size() <= count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What is special to devices behind a library with a scheduler of its own.
+// Tests of devices behind a library with a scheduler of its own.
 #include "device/hdapi/transport/hdapis.hpp"
 #include "tests/conformance/hdapi/hdapi_test.hpp"
 #include "tests/support/device/ungoverned.hpp"
@@ -158,7 +158,7 @@ TEST_F(Hdapi, SetsTheBeatOfALoopThatItPacesAndTakesEachForceInTheSameFrameIfItCo
         if (frame < commands.size() && is_force_of(beat)(commands[frame])) ++in_time;
     }
     std::printf("%d of 100 forces in the frame of their beat\n", in_time);
-    EXPECT_GE(in_time, 1); // 98 and 99 on a machine with other work, November 2026
+    EXPECT_GE(in_time, 1); // on a loaded machine 98 and 99
 }
 
 TEST_F(Hdapi, GivesTheLoopBackWhenTheSchedulerStalls)
@@ -174,7 +174,7 @@ TEST_F(Hdapi, GivesTheLoopBackWhenTheSchedulerStalls)
         read_until([](const auto& sample) { return sample.fault == device::Fault::timeout; }));
     fake_.set(0, FakeHdFate::stalled, false);
     EXPECT_TRUE(read_until([](const auto& sample) { return sample.fault == device::Fault::none; }));
-    EXPECT_EQ(beats, 10); // nobody beats any more
+    EXPECT_EQ(beats, 10); // no beat is called any more
 }
 
 TEST_F(Hdapi, LetsAnExceptionOfTheLoopOutOnTheThreadThatPaces)

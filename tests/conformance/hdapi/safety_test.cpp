@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What must hold on a physical device before anyone holds it.
+// Requirements that must hold on a physical device before anyone holds it.
 #include "device/hdapi/device_cycle.hpp"
 #include "tests/conformance/hdapi/hdapi_test.hpp"
 #include "tests/support/device/ungoverned.hpp"
@@ -26,7 +26,7 @@ bool is_silent(const FakeHdCommand& command)
 
 class HdapiSafety : public Hdapi {
 protected:
-    /// Reads both for 300 ms; whether each has been at this fault.
+    /// Reads both devices for 300 ms, and returns for each whether it reported this fault.
     [[nodiscard]] std::vector<bool> have_been_at(device::Fault fault)
     {
         std::vector<bool> has(devices_.size(), false);
@@ -92,7 +92,7 @@ TEST_F(HdapiSafety, EndsItsForceInTheVeryCycleThatFindsItUncalibrated)
     EXPECT_EQ(device().calibrate(net::monotonic_now()), device::CalibrationStep::dock_stylus);
     const auto commands = fake_.commands(0);
     ASSERT_GT(commands.size(), first + 2);
-    // The frame that was open then may still carry it.
+    // The frame that was open at that time may still contain it.
     const auto next = commands.begin() + static_cast<std::ptrdiff_t>(first) + 1;
     EXPECT_TRUE(std::all_of(next, commands.end(), is_silent));
 }
@@ -101,7 +101,7 @@ TEST_F(HdapiSafety, LeavesTheMotorsOffFromTheFirstFrameOnUntilItIsToldAForce)
 {
     open();
     pass(50ms);
-    // Its scheduler starts anew, with the motors on, for another one.
+    // The library's scheduler restarts, with the motors on, for another device.
     auto other = device::hdapi::open_hdapi("Left", HAPNET_FAKE_HD);
     ASSERT_TRUE(other);
     pass(50ms);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What holds for HID devices besides the suite, through unmodified hidapi.
+// Tests of HID devices besides the suite, through unmodified hidapi.
 #include "device/hid/transport/hids.hpp"
 #include "proto/net/clock.hpp"
 #include "tests/conformance/hid/emulated.hpp"
@@ -44,7 +44,7 @@ protected:
         return opened ? *std::move(opened) : nullptr;
     }
 
-    /// A millisecond of the device; more of real time where the machine is busy.
+    /// Plays a millisecond of the device's time, which takes longer where the machine is busy.
     device::Sample tick(device::Device& device, const base::Force& force)
     {
         const base::TimePoint due = net::monotonic_now() + 1ms;
@@ -70,7 +70,7 @@ protected:
     {
         return pid_.with([](const FakePid& pid) { return !pid.push().is_zero(); });
     }
-    /// The last reports of all speak of no force and of no power.
+    /// True if the last reports of all kinds contain no force and no power.
     bool ends_at_zero()
     {
         return pid_.with([](const FakePid& pid) {
@@ -139,7 +139,7 @@ TEST_F(Hid, WithoutPermissionIsListedWithTheCure)
     const std::string node = testbed_.real_path("/dev/hidraw0");
     chmod(node.c_str(), 0);
     chmod(testbed_.real_path("").c_str(), 0755);
-    // umockdev asks its own side for the node even where the kernel has refused it.
+    // umockdev asks its own side for the node even where the kernel has refused access.
     for (const char* const its : {"/ioctl", "/ioctl/dev", "/ioctl/dev/hidraw0"}) {
         chmod(testbed_.real_path(its).c_str(), 0777);
     }
@@ -201,7 +201,7 @@ TEST_F(Hid, StuckInAWriteHoldsUpNoTickAndNoEnd)
     EXPECT_EQ(fault, Fault::timeout);
     device->halt();
     device.reset();
-    // A write to a device that takes nothing would wait for ever here, and for 5 s at a real one.
+    // A write to a device that takes no data would never end here, and after 5 s at a real one.
     EXPECT_LT(net::monotonic_now() - start, 4s);
     EXPECT_EQ(open_hid("", {}).error().fault, Fault::in_use); // its write is still under way
     pid_.hidraw().stall(false);
@@ -238,7 +238,7 @@ TEST_F(Hid, ThatSaysNothingWhileNothingMovesIsNoSilentOneAtRestAndUnderForce)
     EXPECT_TRUE(pushes());
 }
 
-/// The device says where it is, that is read, and both forces of the answer arrive.
+/// The device reports its place, the report is read, and both forces of the answer arrive.
 TEST_F(Hid, RunsAClosedLoopWellAboveTwoHundredCyclesPerSecond)
 {
     auto device = open();
@@ -260,7 +260,7 @@ TEST_F(Hid, RunsAClosedLoopWellAboveTwoHundredCyclesPerSecond)
         };
         while (!pid_.with(has_arrived)) net::sleep_until(net::monotonic_now() + 10us);
     };
-    // The best of short stretches: a busy machine is no slow library.
+    // The best of short stretches, because a busy machine does not mean a slow library.
     double best_hz = 0.0;
     for (int stretch = 0; stretch < 20; ++stretch) {
         constexpr int cycles = 50;

@@ -10,7 +10,7 @@
 
 namespace hapnet::conformance {
 
-/// A fake PID device behind hidraw. It moves and speaks when it is told that time passes.
+/// A fake PID device behind hidraw. It moves and sends reports only when pass() is called.
 class EmulatedPid final : private umockdev::HidModel {
 public:
     explicit EmulatedPid(umockdev::Testbed& testbed, int number = 0)
@@ -24,7 +24,7 @@ public:
     {
         return hidraw_.with_model([&] { return action(pid_); });
     }
-    /// Time passes, and it says where it is at the end of it.
+    /// Lets time pass. The device reports its place at the end.
     void pass(base::Duration duration)
     {
         auto report = with([&](hid_double::FakePid& pid) {
@@ -34,7 +34,7 @@ public:
         if (garbles_) report.resize(report.size() / 2);
         hidraw_.say(std::move(report));
     }
-    /// Of its reports only a part arrives.
+    /// Truncates the reports of the device.
     void garble(bool on) { garbles_ = on; }
 
     static umockdev::HidDescription description(int number)

@@ -25,8 +25,8 @@ public:
     [[nodiscard]] base::TimePoint now() override { return now_; }
     void pass(base::Duration duration) override
     {
-        // The device's time is virtual, a tick is never late; but its library and the thread that
-        // writes to it have at least as much of real time to keep up.
+        // The device's time is virtual, so a tick is never late. But its library and the thread
+        // that writes to it get at least as much real time.
         const base::TimePoint due = net::monotonic_now() + duration;
         for (base::Duration left = duration; left > base::Duration{0}; left -= step) {
             pid_.pass(std::min(left, step));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What is special to devices behind a service.
+// Tests of devices behind a service.
 #include "device/inverse3/transport/inverse3s.hpp"
 #include "proto/net/clock.hpp"
 #include "tests/support/device/ungoverned.hpp"
@@ -28,7 +28,7 @@ protected:
         device_ = *std::move(opened);
     }
     static void pass(base::Duration duration) { net::sleep_until(net::monotonic_now() + duration); }
-    /// Repeats this force and reads every millisecond until the sample is as wanted; at most 5 s.
+    /// Repeats this force and reads every millisecond until the condition holds; at most 5 s.
     template <typename Condition>
     bool push_until(const base::Force& force, Condition is_wanted)
     {

@@ -31,7 +31,7 @@ public:
     {
         std::vector<Command> all;
         for (const glm::dvec3& force : service_.forces()) {
-            // The service knows no other way to switch motors off than no force.
+            // The service can only switch motors off by a force of zero.
             const bool zero = force == glm::dvec3{0.0};
             all.push_back({zero, !zero});
         }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What holds for the FireWire Omni besides what the suite says of every device.
+// Tests of the FireWire Omni besides the suite.
 #include "device/omni1394/transport/omni1394s.hpp"
 #include "tests/support/device/ungoverned.hpp"
 #include "tests/support/omni1394/firewire_omni.hpp"
@@ -16,8 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Without the privileges of root while it lives: root may open everything. Others may not open a
-/// file of mode 0, not even their own.
+/// Drops the privileges of root while it exists, because root may open every file. Others cannot
+/// open a file of mode 0, not even their own.
 class Unprivileged {
 public:
     Unprivileged()
@@ -53,7 +53,7 @@ struct OverTheBus : ::testing::Test {
             device->apply(ungoverned({newtons}));
         }
     }
-    /// Calibrated, and in the middle of the workspace.
+    /// Calibrates the device, and moves it to the middle of the workspace.
     void take_out()
     {
         play_for(60ms);
@@ -72,7 +72,7 @@ struct OverTheBus : ::testing::Test {
         }
         return false;
     }
-    /// The last eight packets, a millisecond, are zeros with the motors off.
+    /// Expects zeros and motors off in the last eight packets, which are a millisecond.
     void expect_zeros()
     {
         const auto packets = heard();

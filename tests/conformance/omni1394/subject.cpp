@@ -15,7 +15,7 @@ namespace omni1394 = device::omni1394;
 
 const base::Position inkwell = device::omni::position_of(device::omni::inkwell_pose);
 
-/// Through the kernel's interface; its time is virtual, as nothing in the double waits.
+/// The backend through the kernel's interface. Its time is virtual, as nothing in the double waits.
 class Omni1394Subject final : public Subject {
 public:
     [[nodiscard]] Traits traits() const override { return {.calibrates = true, .docks = true}; }
@@ -34,7 +34,7 @@ public:
         return omni_.with_omni([](const omni1394::FakeOmni& omni) {
             std::vector<Command> commands;
             for (const auto& packet : omni.heard()) {
-                // What makes no sense is no zero.
+                // A packet that cannot be decoded does not count as zero.
                 const bool zero = packet && packet->motors == glm::ivec3{0};
                 commands.push_back({zero, !packet || packet->motors_on});
             }

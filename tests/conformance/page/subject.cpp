@@ -9,7 +9,7 @@ namespace hapnet::conformance {
 
 namespace {
 
-/// A page that tells its hand a place in every tick that passes.
+/// A page that sends a place for its hand in every tick.
 class PageSubject final : public Subject {
 public:
     [[nodiscard]] Traits traits() const override { return only_software; }

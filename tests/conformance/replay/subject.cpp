@@ -9,7 +9,7 @@ namespace hapnet::conformance {
 
 namespace {
 
-/// A recording needs no double: it is one.
+/// A recording is its own double.
 class ReplaySubject final : public Subject {
 public:
     [[nodiscard]] Traits traits() const override { return only_software; }

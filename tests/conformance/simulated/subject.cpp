@@ -9,7 +9,7 @@ namespace hapnet::conformance {
 
 namespace {
 
-/// What the simulated motors are told, noted.
+/// A device that records the commands given to its simulated motors.
 class NotedOmni final : public device::Device {
 public:
     explicit NotedOmni(std::vector<Command>& commands) : omni_{{}}, commands_{commands} {}

@@ -44,7 +44,7 @@ int answer(const std::string& port, const char* group)
     }
 }
 
-/// Whether a datagram was answered within `patience`.
+/// Returns true if a datagram was answered within `patience`.
 bool is_answered(net::UdpSocket& socket, const net::Endpoint& target, base::Duration patience)
 {
     constexpr std::array payload{std::byte{1}};

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Two peers with keys, each in a network of its own, as in two buildings: they meet over a path
-# that loses and delays, and one that would listen where nobody can reach it says so. Root plays it
-# as an ordinary user, where the system lets it.
+# Two peers with keys, each in a network of its own, as in two buildings: they meet over a path that
+# loses and delays, and a peer with an unreachable address says so. Root plays it as an ordinary
+# user, where the system lets it.
 # Usage: keyed_session_test.sh FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
 
@@ -32,7 +32,7 @@ export folder programs
 export XDG_STATE_HOME=$folder/state
 "$programs/hapnet-peer" keygen --peers 2 --out "$folder/keys" >/dev/null
 
-# peer ID OPTION...: in the network of its side, against the other side.
+# peer ID OPTION...: runs a peer in the network of its side, against the other side.
 peer() {
     local id=$1 remote=$HAPNET_B
     shift
@@ -42,7 +42,7 @@ peer() {
 }
 export -f peer
 
-# Loopback, the default, cannot reach another host: that is refused, and the cure is what works.
+# Loopback, the default, cannot reach another host. The peer refuses it, and its advice works.
 "$programs/hapnet-emulator" between -- bash -c 'peer 1' --- sleep infinity >"$folder/said" 2>&1 &&
     fail "a peer that listens on loopback went to another host"
 cure=$(grep -o 'use --listen [0-9.:]*' "$folder/1.err") || fail "no cure is named"

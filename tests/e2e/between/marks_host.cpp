@@ -38,7 +38,7 @@ using namespace std::chrono_literals;
     }
 }
 
-/// Whether the receiver answered within 20 s.
+/// Returns true if the receiver answered within 20 s.
 bool knock(net::UdpSocket& socket, const net::Endpoint& target)
 {
     const auto end = net::monotonic_now() + 20s;

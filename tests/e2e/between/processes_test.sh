@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What becomes of the processes that the commands of between start: none outlives the emulator, also
-# when that is killed, nested, and where the system refuses PID namespaces. Terminals, users and
-# exit codes are for the commands as they are outside.
+# No process that a command of between starts outlives the emulator, also when it is killed, nested,
+# or where the system refuses PID namespaces. Terminals, users and exit codes are for the commands
+# as they are outside.
 # Usage: processes_test.sh FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
 
@@ -18,7 +18,7 @@ code=0
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-# A number that no other process has among its words.
+# A number that occurs in the words of no other process.
 mark=7$$
 
 # listed START...: the ids of the processes whose words begin with one of these, oldest first,
@@ -57,7 +57,7 @@ hidden_proc() {
         exec unshare --user --map-root-user "$@"' sh "$@"
 }
 
-# kill_emulator WORDS: the one whose first command begins with these. Its inits have its words, too.
+# kill_emulator WORDS: kills the one whose first command has these words. Its inits have them, too.
 kill_emulator() {
     local all
     readarray -t all < <(listed "$emulator between -- sh -c $1")
@@ -104,7 +104,7 @@ survives_nothing() {
     await_processes 0 "$way, three, killed"
     wait
 
-    # What a command leaves in the background lives as long as the run, and no longer.
+    # A process that a command leaves in the background ends with the run.
     code=0
     "$way" "$emulator" between -- sh -c "setsid sleep $mark.6 & sleep 0.3; exit 4" --- \
         sh -c "setsid sleep $mark.7 &" >"$folder/out" 2>"$folder/err" || code=$?
@@ -129,7 +129,7 @@ for way in no_pid_namespace hidden_proc; do
 done
 for way in "${ways[@]}"; do survives_nothing "$way"; done
 
-# inside SCRIPT: what a script prints as command A.
+# inside SCRIPT: prints the output of a script that runs as command A.
 inside() { "$emulator" between -- bash -c "$1" --- sleep "$mark.8" 2>"$folder/err"; }
 [[ $(inside 'id -u; id -g') == "$(id -u; id -g)" ]] || fail 'the user is another one'
 # shellcheck disable=SC2016 # the command expands it
@@ -148,8 +148,8 @@ inside() { "$emulator" between -- bash -c "$1" --- sleep "$mark.8" 2>"$folder/er
     grep -q on "$folder/out" || fail 'a command can kill its init'
 }
 
-# At a terminal: keys reach the command, and its shells leave the terminal to whoever had it.
-# types KEYS...: to a program at a terminal, each after a second: A starts after one.
+# At a terminal, keys reach the command, and its shells give the terminal back.
+# types KEYS...: sends keys to a program at a terminal, one per second. A starts after 1 s.
 types() {
     local keys
     for keys in "$@"; do
@@ -173,7 +173,7 @@ types '' '' 'typed\n' '' | script -qec "bash $folder/shells" /dev/null >"$folder
 grep -q 'in 42' "$folder/out" || fail 'a shell at a terminal does not run'
 grep -q 'after: typed' "$folder/out" || fail 'the terminal is not given back'
 
-# Ctrl-Z stops it, and fg goes on.
+# Ctrl-Z stops the command, and fg continues it.
 both="sh -c 'echo begun; sleep 3; echo done' --- sleep $mark.9"
 types "$emulator between -- $both 2>/dev/null\n" \
     '' '\032' 'echo st"op"ped\n' 'fg\n' '' '' '' 'exit\n' |

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Three commands and more on one network, as this user and, as root, as one who is not: each pair
-# has a path with conditions of its own; streams, pings and groups reach whom they are for; what the
+# has a path with conditions of its own; streams, pings and groups reach their receivers; what the
 # run writes names the paths; commands start and end in their order.
 # Usage: several_test.sh FOLDER-WITH-THE-PROGRAMS
 set -euo pipefail
@@ -32,7 +32,7 @@ if ((EUID == 0)) && setpriv --reuid 65534 --regid 65534 --clear-groups \
     users+=(nobody)
 fi
 user=self
-# between WORDS...: as the user; sets code. What it writes is written anew.
+# between WORDS...: runs it as the user; sets code. Replaces the earlier output.
 between() {
     local as=()
     rm -f run.json fates.csv run.pcapng
@@ -49,7 +49,7 @@ streams_and_groups() {
     ((code == 0)) || fail "streams between four ended with $code"
     grep -q '^streams a b c d$' out || fail 'a stream is missing'
     jq -e "[$identities] | all" run.json >said || fail 'the statistics do not add up'
-    # Each pair has its stream, both ways, and nothing but that: 300 kB and headers.
+    # Each pair has its own stream, both ways, and no other traffic: 300 kB and headers.
     jq -e '(.links | keys) == ["a-b", "a-c", "a-d", "b-c", "b-d", "c-d"] and
         ([.links[] | .up, .down] | all(.bytes_in > 300000 and .bytes_in < 500000)) and
         ([.links[] | .up.received] | add) == .up.received and
@@ -66,7 +66,7 @@ streams_and_groups() {
 
 pings() {
     command -v ping >/dev/null || { echo 'not tested: there is no ping' && return; }
-    # Of a, b and c each pair has another delay, by all three ways to say so.
+    # Each pair of a, b and c has another delay, set in all three ways.
     printf '%s\n' '[matrix]' 'peers = ["a", "b", "c"]' \
         'delay = [["0ms", "9ms", "21ms"], ["9ms", "0ms", "1ms"], ["21ms", "1ms", "0ms"]]' \
         '[link.b-c]' 'up.delay = "30ms"' >matrix.toml
@@ -130,7 +130,7 @@ captured() {
 }
 
 order() {
-    # A starts when all listen; without that, after a second. Others that end are told of.
+    # A starts when all listen, or without that option after 1 s. The ends of others are reported.
     local listening="sh -c 'sleep 0.3; exec $network groups b 3'"
     between -- sh -c 'echo a >>started' --- sh -c "echo b >>started; $listening" --- \
         sh -c 'echo c >>started; exit 6'
@@ -147,7 +147,7 @@ order() {
     ((code == 0)) || fail "eight ended with $code"
     grep -q '^10.0.0.8 ' out || fail 'h is not a name'
     grep -q '^fd00::8$' out || fail 'h has no address of IPv6'
-    # Nested, each in each.
+    # Commands of between, nested in each other.
     local inner="$emulator between -- getent ahostsv4 c --- sleep 9 --- sleep 9"
     between -- sh -c "$inner" --- sh -c "$inner >inner; sleep 9" --- sleep 9
     ((code == 0)) || fail "nested, it ended with $code"
@@ -157,7 +157,7 @@ order() {
 }
 
 refusals() {
-    # refused WORDS WORD...: a bad usage, and why
+    # refused WORDS WORD...: expects a usage error with these words.
     refused() {
         between "${@:2}"
         ((code == 2)) || fail "${*:2} ended with $code"

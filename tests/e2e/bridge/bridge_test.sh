@@ -39,7 +39,7 @@ await() {
     fail "no '$1' in $2"
 }
 
-# Offloads stay on at the hosts: then checksums are left to devices that do not compute them.
+# The hosts keep their offloads, so checksums are left to devices that do not compute them.
 hosts=()
 for side in 1 2; do
     ip link add "wire$side" type veth peer name "host$side"
@@ -66,7 +66,7 @@ on() {
     nsenter -t "$host" -n "$@"
 }
 
-# Not by on(): what is killed at the end is to be the program itself.
+# Without on(), because the killed process must be the program itself.
 nsenter -t "${hosts[2]}" -n "$emulator" probe --answer '[::]:7002' >"$folder/answer" &
 await ready "$folder/answer"
 "$emulator" bridge wire1 wire2 --up.delay 20ms --down.delay 5ms --stats "$folder/run.json" \
@@ -92,7 +92,7 @@ jq -e '.up.received >= 20 and .frames.a.undisturbed > 0 and .frames.a.oversized 
     .received + .duplicated == .delivered + ([.dropped[]] | add) + .in_flight)' \
     "$folder/run.json" >"$folder/said" || fail "the statistics do not add up"
 
-# Between two ends without a kernel's words, every frame is the one that was sent.
+# Between two ends without traffic of a kernel, every frame arrives as it was sent.
 if command -v python3 >"$folder/said"; then
     for side in 5 6; do
         ip link add "wire$side" type veth peer name "end$side"
@@ -106,7 +106,7 @@ if command -v python3 >"$folder/said"; then
     kill "$bridge"
     wait "$bridge" || fail "the bridge of frames ended with $?"
     read -r up down <"$folder/ip_packets"
-    # More than those: kernels look for neighbours and groups.
+    # There are more frames, because kernels look for neighbours and groups.
     jq -e --argjson up "$up" --argjson down "$down" '.up.received >= $up and
         .down.received >= $down and .frames.a.lost_undisturbed + .frames.b.lost_undisturbed == 0 and
         ([.up, .down][] | .received == .delivered and .in_flight == 0)' \
@@ -115,8 +115,8 @@ else
     echo 'not tested: every kind of frame, which needs python3'
 fi
 
-# Where it is told so, a host sends packets that are short enough; otherwise nothing passes.
-# too_big OPTIONS: how many of 40 long questions have got their answers, by each family
+# A host that is told sends packets that are short enough. Otherwise nothing passes.
+# too_big OPTIONS: prints how many of 40 long questions got answers, for each family
 too_big() {
     "$emulator" bridge wire1 wire2 --mtu 1280B --stats "$folder/mtu.json" "$@" \
         >"$folder/short" 2>&1 &
@@ -162,8 +162,8 @@ wait "$bridge" || code=$?
 ((code == 1)) || fail "a loop ended the bridge with $code"
 grep -q 'a loop: ' "$folder/looped" || fail "the loop is not told"
 
-# Without an interface nothing passes: the run ends, says why, and is not valid.
-# ends_without WIRE REASON COMMAND...: a bridge of two new interfaces; the command takes one away.
+# Without an interface nothing passes: the run ends, says why, and is not valid. ends_without WIRE
+# REASON COMMAND...: the command takes an interface from a new bridge.
 ends_without() {
     local wire=$1 reason=$2 side
     shift 2
@@ -195,8 +195,8 @@ code=0
 ((code == 1)) || fail "without a wire between ended with $code, not 1"
 grep -q 'NOT VALID: the interface wire-a has gone' "$folder/lost" || fail 'between says nothing'
 
-# A relay goes on without its address, which may come back, but the run is not valid.
-# loses_address WHERE OPTION...: what listens there loses $address for a while.
+# A relay continues without its address, which may come back, but the run is not valid.
+# loses_address WHERE OPTION...: a relay that listens there loses $address for a while.
 loses_address() {
     local where=$1 relay
     rm -f "$folder/relay"

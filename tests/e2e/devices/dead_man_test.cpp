@@ -47,13 +47,13 @@ public:
         event.value = down ? 1 : 0;
         events_.push_back(event);
     }
-    /// From now on it cannot be read: ENODEV when it has been unplugged.
+    /// Makes all further reads fail, with ENODEV as after it was unplugged.
     void fail(int error)
     {
         const std::lock_guard lock{mutex_};
         error_ = error;
     }
-    /// When the program came to know of each end of a press: a release, or the first error.
+    /// Returns when the program learned of each end of a press: a release, or the first error.
     [[nodiscard]] std::vector<base::TimePoint> ends()
     {
         const std::lock_guard lock{mutex_};
@@ -108,7 +108,7 @@ private:
     bool has_failed_ = false;
     std::vector<base::TimePoint> ends_;
     umockdev::Testbed testbed_;
-    std::optional<umockdev::Attachment> attachment_; // last: it ends before what it uses
+    std::optional<umockdev::Attachment> attachment_; // the last member, because it uses the others
 };
 
 /// A hand that plays with a pedal, and the other one.
@@ -138,7 +138,7 @@ public:
             return shown.value("force_withheld", false) && shown.value("force_n", 1.0) == 0.0;
         });
     }
-    /// Ends it, and expects each end of a press to have ended the force two ticks later at most.
+    /// Ends the session. Expects that each end of a press ended the force within two ticks.
     void expect_all_ends_in_time(std::size_t ends)
     {
         a_->stop_on_a_busy_machine();

@@ -46,7 +46,7 @@ struct Held {
         const auto heard = commands();
         return !heard.empty() && heard.back().motors != Counts{};
     }
-    /// To the right, what its motors do at the grip.
+    /// Returns the force of the motors at the grip, to the right.
     [[nodiscard]] double push_n()
     {
         return usb.with_model([&] { return falcon.force().x(); });
@@ -60,8 +60,8 @@ struct Held {
     umockdev::UsbDevice usb;
 };
 
-/// Both hands at the cube, from its two sides. A Falcon is magnified twice: the cube begins 10 mm
-/// from the middle of its workspace, and is touched from 12.5 mm on.
+/// Both hands at the cube, from its two sides. A Falcon's motion is magnified twice: the cube
+/// begins 10 mm from the middle of its workspace, and is touched from 12.5 mm on.
 class TwoFalcons : public ::testing::Test {
 protected:
     std::vector<std::string> options(const std::string& serial)
@@ -86,7 +86,7 @@ protected:
         expect_to_hear(socket_of("RIGHT"), 200);
         left_.want(-0.009);
         right_.want(0.009);
-        // The cube pushes each back to its own side.
+        // The cube pushes each grip back to its own side.
         const auto is_felt = [&] { return left_.push_n() < -0.2 && right_.push_n() > 0.2; };
         const auto press = [&](bool down) {
             left_.press(down);
@@ -150,14 +150,14 @@ TEST_F(TwoFalcons, OneFeelsNothing300MillisecondsAfterTheOtherWasKilled)
     a_.kill();
     std::this_thread::sleep_for(1s);
     EXPECT_FALSE(right_.is_pushed());
-    // The last word comes 5 ms after the kill through the emulator; from then on 250 ms to hold and
-    // 50 ms to fade, and 25 ms for a late tick and its packet on a busy machine.
+    // The last state arrives through the emulator 5 ms after the kill. The force then holds for 250
+    // ms and fades within 50 ms. A late tick and its packet may add 25 ms on a busy machine.
     EXPECT_LE(right_.last_push() - killed, 330ms);
     EXPECT_GE(right_.last_push() - killed, -50ms); // it was pushed until then
     EXPECT_TRUE(b_.says("the other peer has been silent for 300 ms: force faded to zero"));
     b_.stop_on_a_busy_machine();
     expect_left_at_zero(right_);
-    expect_the_same_forces_again(a_.record()); // as far as it was written
+    expect_the_same_forces_again(a_.record()); // up to its last written row
     expect_the_same_forces_again(b_.record());
 }
 
@@ -176,14 +176,14 @@ TEST_F(TwoFalcons, OneThatIsUnpluggedSaysSoAndTheOtherFeelsNothingOfIt)
     ASSERT_NO_FATAL_FAILURE(press_together());
     left_.usb.unplug();
     EXPECT_TRUE(a_.says("the device has gone"));
-    a_.process().signal(SIGTERM); // it plays on at zero force until then, and says so
+    a_.process().signal(SIGTERM); // it continues at zero force until then, and says so
     EXPECT_EQ(a_.process().wait_exit(30s), 1) << a_.process().err();
     b_.stop_on_a_busy_machine();
     expect_left_at_zero(right_);
     expect_the_same_forces_again(a_.record()); // the fault too
 }
 
-/// What a daemon says that cannot have its Falcon; the Falcon is told no torque.
+/// Expects that a daemon that cannot have its Falcon says why, and that the Falcon gets no torque.
 void expect_refused(Held& held, const std::vector<std::string>& words)
 {
     const Outcome outcome = run("hapnet-peer", {"--remote", free_place(), "--device", "falcon"});

@@ -30,8 +30,8 @@ public:
             while (!over_) {
                 std::this_thread::sleep_for(1ms);
                 const base::TimePoint now = net::monotonic_now();
-                // A hand and a joystick that the machine kept waiting go on from where they were:
-                // all that they would have done meanwhile, at once, is faster than any hand.
+                // After a delay of the machine, hand and joystick continue from where they were. To
+                // make up for the delay at once would be faster than any hand.
                 const base::Duration passed = std::min<base::Duration>(now - last, 2ms);
                 const double step_m = speed_m_per_s * base::to_seconds(passed);
                 aim_m_ += std::clamp(wanted_m_ - aim_m_, -step_m, step_m);
@@ -49,7 +49,7 @@ public:
     HeldJoystick(const HeldJoystick&) = delete;
     HeldJoystick& operator=(const HeldJoystick&) = delete;
 
-    /// Goes there slowly: a jump would be a fault.
+    /// Moves there slowly, because a jump would be a fault.
     void want(double right_m) { wanted_m_ = right_m; }
     void reach_further() { want(std::min(wanted_m_ + 0.01, 0.07)); }
     void press(bool down)
@@ -83,8 +83,8 @@ private:
     std::thread life_;
 };
 
-/// The joystick's hand comes from the left, the simulated one from the right. Its own 160 mm are
-/// not magnified: it touches the cube from 25 mm left of the middle on.
+/// The joystick's hand comes from the left, the simulated hand from the right. The joystick's 160
+/// mm are not magnified: it touches the cube from 25 mm left of the middle on.
 class JoystickSession : public ::testing::Test {
 protected:
     void press_together()
@@ -109,8 +109,8 @@ protected:
             << a_.process().err();
     }
 
-    /// Both programs stand still for longer than the governor tolerates; whether the joystick
-    /// pushed meanwhile.
+    /// Stops both programs for longer than the governor tolerates. True if the joystick was
+    /// pushing.
     [[nodiscard]] bool stands_still_under_force()
     {
         for (Peer* peer : {&a_, &b_}) peer->process().pause();
@@ -147,12 +147,12 @@ TEST_F(JoystickSession, EndsAtZeroAndItsForcesCanBeLivedThroughAgain)
     expect_the_same_forces_again(b_.record());
 }
 
-/// As on a machine that has no time for them.
+/// Stops the programs, as a busy machine does.
 TEST_F(JoystickSession, ThatStandsStillUnderForceCanBeLivedThroughAgain)
 {
     ASSERT_NO_FATAL_FAILURE(press_together());
     const auto is_at_fault = [&] { return fault_at(socket_) == "timeout"; };
-    // A joystick that the machine keeps waiting is silent, and then there is no force to stop.
+    // A joystick that the machine delays is silent, and then there is no force to stop.
     ASSERT_TRUE(comes_true([&] { return stands_still_under_force() || is_at_fault(); }));
     EXPECT_TRUE(comes_true(is_at_fault));
     ASSERT_NO_FATAL_FAILURE(feel_each_other());

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What Wireshark shows of messages and of their fates, against expected.txt. SCRIPT is the
-# dissector. With HAPNET_WRITE_GOLDEN=1 the file is written anew.
+# Compares Wireshark's view of messages and their fates with expected.txt. SCRIPT is the dissector.
+# With HAPNET_WRITE_GOLDEN=1 the file is rewritten.
 set -euo pipefail
 script=$1
 here=$(dirname "$0")
@@ -15,7 +15,7 @@ trap 'rm -rf "$folder"' EXIT
 export TZ=UTC HOME="$folder"
 text2pcap -q -t %H:%M:%S.%f -u 7000,7001 "$here/messages.txt" "$folder/messages.pcap" \
     2>"$folder/log" || { cat "$folder/log" && exit 1; }
-# As the emulator comments what arrives and what leaves; the last one is a person's.
+# Comments as the emulator writes them on arrivals and departures; the last one is a person's.
 fates=("delayed 163.2 ms, copied, 2 bits corrupted, displaced" "dropped: gilbert-elliott"
     "late 7 us" "late 12 us, copy" "delayed 250 us" "delayed 1.0 ms, 1 bit corrupted" "looks odd")
 comments=()

@@ -63,7 +63,7 @@ for _ in {1..200}; do
 done
 port=$(grep -o '[0-9]*$' < <(grep -o '127.0.0.1:[0-9]*' "$folder/answer"))
 
-# A server of IPv6 on loopback, and who asks it; no port: there is no IPv6, or no Python.
+# A server of IPv6 on loopback, and a client of it. Without a port, there is no IPv6 or no Python.
 cat >"$folder/server.py" <<'EOF'
 import socket
 server = socket.create_server(("::1", 0), family=socket.AF_INET6)
@@ -155,7 +155,7 @@ done
 
 ((ways_of_ipv6 > 0)) || echo 'not tested: IPv6, for which this machine has no route'
 
-# It nests, and with between each way round.
+# exec nests in itself, and with between either way.
 "$emulator" exec -- "$emulator" exec -- sh -c 'getent ahostsv4 host; exit 7' \
     >"$folder/out" 2>"$folder/err" && code=0 || code=$?
 ((code == 7)) || fail "exec within exec: the exit code is $code"
@@ -209,7 +209,7 @@ for _ in {1..200}; do
 done
 ((left == 0)) || fail "$left processes are left of a run that was killed"
 
-# refused CODE WORDS COMMAND...: it ends so, with these words on stderr.
+# refused CODE WORDS COMMAND...: expects this exit code, with these words on stderr.
 refused() {
     local wanted=$1 words=$2 code=0
     shift 2

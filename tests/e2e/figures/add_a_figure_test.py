@@ -22,7 +22,7 @@ def printed(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-# The code of the page stands in the three files that it names.
+# The code of the page is put into the three files that the page names.
 files = re.findall(r"^## \d\. .*`(.*)`$", page, re.MULTILINE)
 assert len(files) == 3, files
 sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:4]
@@ -32,7 +32,7 @@ for file, section in zip(files, sections):
     for block in blocks:
         assert block in (repository / file).read_text(), f"{file} does not have\n{block}"
 
-# Each output of a run has it.
+# Each output of a run has the figure.
 with tempfile.TemporaryDirectory() as place:
     stats, fates, control = (str(Path(place) / name) for name in ("s.json", "f.csv", "e.sock"))
     run = subprocess.Popen(

@@ -18,7 +18,7 @@ TASKS = [f"T{n}" for n in range(1, 11)] + ["P1"]
 ALGORITHMS = ("base", "dead-reckoning", "sep", "remote-proxy", "base-tdpa", "wave", "couple", "lag",
               "rollback")
 
-# A profile with most of what draws a fate, none of which depends on time.
+# A profile with most of the settings that draw fates, and with none that depends on time.
 LOSSY = """name = "lossy"
 
 [both]
@@ -248,7 +248,7 @@ def controlled_play(programs):
     lab.wait(10)
 
 
-# The columns of some tables that the CSV has not.
+# The columns of some tables that are in JSON alone.
 IN_JSON_ALONE = {
     "table1": [f"{part}_{end}_mm" for part in ("mean", "std", "max") for end in ("low", "high")],
     "limits": ["band"], "precision": ["order"], "qos": ["limited_by"]}

@@ -42,24 +42,24 @@ else:
         end.sendto(*end.recvfrom(100))
 """
 
-# Paths of JSON whose values are up to the machine, with the words for their kind.
+# Paths of JSON whose values depend on the machine, with the words for their kind.
 LOOSE = [
     (r"invalid_because$", "list of texts"), (r"invalid_because\[\]", "left out"),
     (r"(^|\.)(boot_id|socket)$", "text"), (r"peers\[\]\.says$", "text"),
     (r"governor(\.state)?$", "text"),
     (r"(^|\.)events$", "list"), (r"events\[\]\.generation$", "left out"),
     (r"findings\[\]\.fix$", "null or text"), (r"findings\[\]\.\w+$", "text"),
-    # Of a page: the length of the run in words, and whether the machine kept time.
+    # On a page: the length of the run in words, and whether the machine kept time.
     (r"^lead$", "text"), (r"^head\[\]\.", "left out"),
 ]
-# Of frames: moments in which nothing came, or before the session is told.
+# In frames: figures that are missing at moments without data, or before the session is known.
 LOOSE_FRAMES = [
     *LOOSE, (r"(left_out|repeated)$", "left out"), (r"phase$", "text"),
     (r"(^|\.)session$", "null or object"),
     (r"\.(delay_ms|late_us)$", "null or object"), (r"dropped\.(?!random_loss)", "left out"),
     (r"heard\[\]\.(age|offset|uncertainty)_ms$", "null or number"),
 ]
-# Texts that are up to the machine.
+# Texts that depend on the machine.
 WORDS = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r"127\.0\.0\.1:\d+", "ADDRESS"),
     (r"/tmp/\w+", "PLACE"),

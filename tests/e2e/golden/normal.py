@@ -19,7 +19,7 @@ HEAD_LINES = 6
 LINE_HEAD = 160
 TEXT_MAX = 100  # a longer text within JSON is kept as a head
 
-# What names the build, the host or the wall time. The pattern is what stays, up to the value.
+# Parts that name the build, the host or the wall time. The pattern keeps the text before the value.
 MASKS = [(re.compile(pattern), replacement) for pattern, replacement in (
     (r"\d+\.\d+\.\d+ \(commit [^)]*\)( [0-9a-f]{16})?", "VERSION (commit COMMIT, COMPILER)"),
     (r'("key":"[^"]* )[0-9a-f]{16}"', r'\1BUILD"'),  # of a session: the build is part of the hash
@@ -52,7 +52,7 @@ def exact(text, form="text", seen=None):
     the shapes that the reader knows already, as some outputs have the same one."""
     text = masked(text)
     lines = text.splitlines()
-    if form == "jsonl":  # behind their head in the order in which sessions were played
+    if form == "jsonl":  # after the header, in the order in which sessions were played
         lines = [*lines[:1], *sorted(lines[1:])]
         text = "".join(f"{line}\n" for line in lines)
     elif len(lines) <= LINES_MAX and all(len(line) <= LINE_MAX for line in lines):

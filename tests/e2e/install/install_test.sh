@@ -2,8 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What the programs write for packages: manual pages that scdoc takes, and completions that the
-# shells take and that complete.
+# Tests the output of programs for packages: manual pages for scdoc, and completions for shells.
 #   install_test.sh BIN_DIR PYTHON_DIR
 set -euo pipefail
 work=$(mktemp -d)
@@ -68,7 +67,7 @@ if command -v fish >/dev/null; then
     [[ $(fish_completes "hapnet-emulator --up") == *--upstream* ]] || fail "fish: --up"
 fi
 if command -v zsh >/dev/null; then
-    # What zsh's completion would be told, without a terminal.
+    # The offers that zsh's completion would get, without a terminal.
     offered=$(zsh -fc '_describe() { print -rl -- $commands }; _arguments() { print -rl -- "$@" }
         words=(hapnet-emulator "") CURRENT=2; source '"$work/hapnet-emulator.zsh")
     for one in "predict:" "--timing\[.*:(eco precise " "--upstream\["; do

@@ -21,7 +21,7 @@ fail() {
     exit 1
 }
 
-# The page's own commands, with its warnings as errors. What runs beside keeps real time.
+# The page's own commands, with warnings as errors. Other processes here need real time.
 export HAPNET_PAGE_FOLDER=$work/page HAPNET_PAGE_SECONDS=400 PYTHONDONTWRITEBYTECODE=1
 CXX=$cxx CXXFLAGS="-Wall -Wextra -Werror" chrt --idle 0 "$repository/tests/e2e/readme_test.sh" \
     "$repository/docs/use/libraries.md" "$build/bin" 5
@@ -30,7 +30,7 @@ prefix=$work/prefix
 cmake -S "$repository/examples" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_CXX_COMPILER="$cxx" >"$work/configure.log" 2>&1 || fail "$(cat "$work/configure.log")"
 
-# Each header finds what it includes, and each folder is there for somebody.
+# Each header finds its includes, and each folder is used.
 cd "$prefix/include/hapnet"
 while IFS=: read -r header line; do
     included=${line#*\"}
@@ -51,7 +51,7 @@ grep -Eq "^up  *60000 sent, $arrived, median (39.9|40.[01]) ms" <<<"$emulator" |
 grep -q "^down  *60000 sent, 60000 arrived, delay 35.0 to 85.0 ms" <<<"$emulator" ||
     fail "emulator: $emulator"
 [[ $(run emulator) == "$emulator" ]] || fail "the same seed gave something else"
-# Where a library lies that is in no place of the system's, the program is told.
+# A library outside of the system's folders needs a path at run time.
 libdir=$(dirname "$(find "$prefix" -name libhapnet-link.so)")
 link=$(LD_LIBRARY_PATH=$libdir run link)
 grep -q "^31 of 1000 lost" <<<"$link" || fail "link: $link" # those of its seed
@@ -68,7 +68,7 @@ wait "${peers[0]}" || fail "the example's peer: $(cat "$work/peer.log")"
 peers=()
 grep -Eq '^[1-9][0-9]{2,} states heard' "$work/peer.log" || fail "$(cat "$work/peer.log")"
 
-# pkg-config leads to the same.
+# pkg-config gives the same result.
 if command -v pkg-config >/dev/null; then
     pc=$(dirname "$(find "$prefix" -name hapnet-lab.pc)")
     for example in scene:hapnet-scene session:hapnet-lab; do
@@ -87,7 +87,7 @@ if command -v pkg-config >/dev/null; then
     [[ $(LD_LIBRARY_PATH=$libdir "$work/link_in_c") == "$link" ]] || fail "link differs"
 fi
 
-# Another version, and a component that there is not, are refused in words.
+# Another version, and an unknown component, are refused with a message.
 for wrong in "9.9 REQUIRED" "REQUIRED COMPONENTS porto"; do
     mkdir -p "$work/wrong"
     printf 'cmake_minimum_required(VERSION 3.25)\nproject(wrong CXX)\nfind_package(hapnet %s)\n' \

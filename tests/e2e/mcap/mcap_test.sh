@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What `hapnet-lab export --mcap` writes is read by @mcap/core and decoded by Foxglove's modules.
+# The output of `hapnet-lab export --mcap` is read by @mcap/core and decoded by Foxglove's modules.
 #   mcap_test.sh FOLDER BIN_DIR WORK_DIR
 # npm fetches the modules into WORK_DIR, once.
 set -euo pipefail
@@ -39,7 +39,7 @@ node read.mjs 1.mcap 1.csv 1
 "$lab" export "${records[@]}" >both.csv
 "$lab" export "${records[@]}" --mcap >both.mcap
 node read.mjs both.mcap both.csv 1 2
-# The reader would notice: a byte of a message's number of bytes.
+# The reader would notice damage: one byte of a message's length is changed.
 head -c 100000 1.mcap >cut.mcap
 if node read.mjs cut.mcap 1.csv 1 >cut.log 2>&1; then
     echo "mcap_test: a file without its end was read" && exit 1

@@ -7,7 +7,7 @@
 # shellcheck source=tests/e2e/programs/lib.sh
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh" "$1" iperf3
 
-# measured: the report that command A has printed.
+# measured: prints the report of command A.
 measured() {
     sed -n '/^{$/,/^}$/p' out.log >report.json
     jq -e "$1" report.json >said.log || fail "not so: $1"

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# What the tests of other people's programs have in common. To be sourced with the folder of our
-# programs and, behind it, the programs that the test needs. Sets emulator, and folder, an empty one
-# in which the test runs.
+# Functions for the tests of other people's programs. To be sourced with the folder of our programs
+# and, behind it, the programs that the test needs. Sets emulator, and folder, an empty one in which
+# the test runs.
 set -euo pipefail
 
 emulator=$(realpath "$1")/hapnet-emulator
@@ -21,7 +21,7 @@ fail() {
     exit 1
 }
 
-# await WORDS FILE: until they are in it.
+# await WORDS FILE: waits until FILE contains them.
 await() {
     for _ in {1..400}; do
         grep -q -- "$1" "$2" 2>/dev/null && return
@@ -30,8 +30,8 @@ await() {
     fail "no '$1' in $2"
 }
 
-# stand_between UPSTREAM_PORT [OPTION...]: an emulator before a server on loopback, with 80 ms and
-# 5 % loss. Sets port, where its clients send to.
+# stand_between UPSTREAM_PORT [OPTION...]: starts an emulator before a server on loopback, with 80
+# ms and 5 % loss. Sets port, the one for clients.
 stand_between() {
     local upstream=$1
     shift

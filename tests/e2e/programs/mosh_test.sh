@@ -13,7 +13,7 @@ mosh-server new -i 127.0.0.1 -p 60001 -- bash -c 'echo asks; read -r line; echo 
 key=$(sed -n 's/^MOSH CONNECT 60001 //p' server.log)
 [[ -n $key ]] || fail "no key of mosh-server"
 stand_between 60001
-# Its input does not end, which would end the session. A terminal without a size shows nothing.
+# An end of the input would end the session. A terminal without a size shows nothing.
 mkfifo keys
 exec 3<>keys
 MOSH_KEY=$key timeout 60 script -qefc "stty cols 80 rows 24; mosh-client 127.0.0.1 $port" \

@@ -256,7 +256,7 @@ class AVerdict(unittest.TestCase):
     def test_has_an_interval_of_students_distribution(self):
         self.assertEqual(mean_of([3.0]), (3.0, None, None))
         self.assertEqual(mean_of([0.1] * 3), (0.1, 0.1, 0.1))
-        # Of 1 to 10 the standard deviation is 3.0277, and tables give 2.2622 for 9 degrees.
+        # The standard deviation of 1 to 10 is 3.0277, and tables give 2.2622 for 9 degrees.
         _, low, high = mean_of([float(i) for i in range(1, 11)])
         self.assertAlmostEqual(low, 5.5 - 2.2622 * 3.0277 / 10**0.5, delta=1e-3)
         self.assertAlmostEqual(high, 5.5 + 2.2622 * 3.0277 / 10**0.5, delta=1e-3)

@@ -59,7 +59,7 @@ class APeerInPython(unittest.TestCase):
         print(f"{len(apart)} ticks: {sum(apart) / len(apart):.3f} mm apart on average, "
               f"{max(apart):.3f} mm at most, {max(settled):.4f} mm at the end; the cube "
               f"travelled {travelled:.0f} mm")  # fmt: skip
-        # Both hands moved the cube by turns, far enough that copies on their own would differ.
+        # Both hands moved the cube by turns, far enough that independent copies would differ.
         self.assertGreater(own, 500)
         self.assertGreater(pushed, 500)
         self.assertGreater(travelled, 30.0)

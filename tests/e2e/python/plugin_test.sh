@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# The fixtures of pytest, and what is read into numpy and pandas. Exits 77 where one is missing.
+# The fixtures of pytest, and reading into numpy and pandas. Exits 77 where one is missing.
 set -euo pipefail
 for module in pytest numpy pandas; do
     python3 -c "import $module" 2>/dev/null ||

@@ -25,7 +25,7 @@ except ImportError:
 
 repository = Path(__file__).resolve().parents[3]
 
-# Which schema a file of a folder of results is of, by its name.
+# The schema of a file in a folder of results, by its name.
 of_files = [(r"(results|sessions|real_time)\.json", "tables"), (r"manifest\.json", "manifest"),
             (r"analysis\.json", "analysis"), (r"emulator\.json", "emulator"),
             (r"peer-\d+\.json", "peer"), (r"plan\.json", "plan"),
@@ -69,7 +69,7 @@ def faults_in(validator, document):
     """What keeps a document from being as the schema of this validator says."""
     faults = []
     for error in validator.iter_errors(document):
-        # Of several forms, the one that it nearly has.
+        # If several forms fail, the one that fits best is reported.
         while error.context:
             forms = {}
             for one in error.context:

@@ -75,7 +75,7 @@ with tempfile.TemporaryDirectory() as place:
     finally:
         programs.stop_all()
 
-# The build has written what the programs print, and they say what each is of.
+# The build has written the schemas that the programs print, and each names its subject.
 names = {"statistics": "{}", "frame": "{}-frame", "predict": "prediction", "verify": "verification"}
 printed = set()
 for program in ("emulator", "peer", "lab"):
@@ -154,7 +154,7 @@ validate("bench", {"host": {"cpu": "a"}, "rows": [
     rows.row(place, "missed_ticks", 0, baseline_value=0, target=0), rows.row(place, "frames", 3),
     rows.row(place, "late_ratio", 0, baseline_value=1, target=2, direction="min")]}, "bench")
 
-# Of the others there are documents in other tests: scripts/real-time.sh has attempts.
+# Other tests have documents of the other schemas, such as attempts (scripts/real-time.sh).
 if unused := validators.keys() - documents.keys() - {"attempt"}:
     faults.append(f"no document is validated by {unused}")
 print(f"{validated} documents validated")

@@ -18,7 +18,7 @@ import study_soak  # noqa: E402
 
 class TheFit(unittest.TestCase):
     def test_is_that_of_the_lab(self):
-        # What hapnet-lab finds; tests/unit/lab/metrics holds the lab against the same table.
+        # The results of hapnet-lab: tests/unit/lab/metrics compares the lab with the same table.
         with open(os.path.join(REPOSITORY, "tests/reference/psychometric.csv")) as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 37)

@@ -123,7 +123,7 @@ class AStudy(unittest.TestCase):
             ended = came == "are answered:"
             person.close()
             answered = len(self.lines(1)) - 1
-            # The last answer may be on the disk before the program could say so.
+            # The last answer may be on the disk before the program could report it.
             self.assertIn(answered - noted, (0, 1), person.said)
             noted = answered
             if ended:

@@ -72,7 +72,7 @@ class Live:
     def read(self):
         """A message, or the code with which the server closes."""
         kind, body = self.read_fragment()
-        while kind & 15 == 9:  # a ping, as while time stands still
+        while kind & 15 == 9:  # a ping keeps an idle socket alive
             self.socket.sendall(bytes([0x8A, 0x80]) + bytes(4))
             kind, body = self.read_fragment()
         if kind & 15 == 8:
@@ -80,7 +80,7 @@ class Live:
         while not kind & 0x80:
             kind, more = self.read_fragment()
             body += more
-        self.text = body.decode()  # of the newest message, as it came
+        self.text = body.decode()  # the newest message, as received
         message = json.loads(self.text)
         if message["type"] == "frame":
             self.send({"ack": message["n"]})

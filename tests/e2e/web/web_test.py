@@ -268,7 +268,7 @@ class Web(unittest.TestCase):
             for name in names:
                 self.assertIn(name, labels)
                 wanted = re.findall(r"\{\{\s*(\w+)\s*\}\}", target.get("legendFormat", ""))
-                # A path is named where there are several.
+                # A path is named only if there are several.
                 self.assertLessEqual(set(wanted) - {"path", "instance"}, labels[name], target)
 
     def test_a_chosen_port_that_is_taken_ends_it_with_3(self):

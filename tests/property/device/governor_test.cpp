@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t rounds = 200'000;
 
-/// Wishes of every kind: usual, absurd, and any bits at all.
+/// Forces of every kind: usual, absurd, and any bits.
 base::Force wish(const base::RandomStream& stream, std::uint64_t round)
 {
     base::Force force;
@@ -65,7 +65,7 @@ TEST(Governor, NeverGivesAHandMoreThanItsLimitsWhateverItIsAskedFor)
     EXPECT_GT(felt, rounds / 2);
 }
 
-/// What a device may say and do: well for a while, then anything.
+/// The reports of a device: good for a while, then anything.
 class AnyDevice {
 public:
     explicit AnyDevice(base::RandomStream stream) : stream_{stream} {}
@@ -78,7 +78,7 @@ public:
         if (is_well || stream_.below(4, round / 125, 21) != 0) ++sequence_;
         sample.sequence = sequence_;
         sample.presses = static_cast<std::uint16_t>(round / 1700);
-        // A person who means it: after a second at rest, for 0.3 s and more.
+        // A person who holds the device at rest for a second, then presses for 0.3 s and more.
         if (is_well) sample.buttons = round % 1700 >= 1300 ? 1 : 0;
         return sample;
     }
@@ -177,7 +177,7 @@ TEST(Governor, KeepsEveryRuleWhateverTheDeviceSaysAndTheSceneWants)
             ASSERT_FALSE(given.motors_on()) << round;
         }
         ASSERT_TRUE(given.motors_on() || force == base::Force{}) << round;
-        // A force that grows does so by a newton in a millisecond at most.
+        // A force grows by at most one newton per millisecond.
         ASSERT_LE(base::norm(force), base::norm(before) + 1.0 + 1e-9) << round;
         if (!(force == base::Force{})) ++felt;
         before = force;

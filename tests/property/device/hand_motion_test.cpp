@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t hands = 5000;
 
-/// Evenly in the logarithm.
+/// Draws a value evenly in the logarithm.
 double within(double least, double most, double share)
 {
     return base::exp(base::log(least) + share * (base::log(most) - base::log(least)));
@@ -26,7 +26,7 @@ TEST(HandMotion, IsFiniteAndTheSameInTwoHalvesForEveryHandThatCanBeAskedFor)
         const auto draw = [&](std::uint32_t n) { return stream.uniform(i, n); };
         const HandImpedance hand{within(0.02, 10.0, draw(0)), within(1e-6, 100.0, draw(1)),
                                  within(1.0, 5000.0, draw(2))};
-        // Without friction: one that ends within a step is taken to end once.
+        // Without friction. A motion that ends within a step ends only once.
         HandMotion whole{hand, 0.0};
         HandMotion half{hand, 0.0};
         whole.set_step(2e-3);

@@ -13,7 +13,7 @@
 
 namespace hapnet::cli {
 
-/// What a program prints for some words; nullopt where it would run, or refuses them.
+/// Returns a program's output for some words; nullopt where it would run, or refuses them.
 using Prints = std::function<std::optional<std::string>(std::vector<std::string> words)>;
 
 /// The lines of a text.
@@ -25,8 +25,8 @@ inline std::vector<std::string> lines_of(const std::string& text)
     return lines;
 }
 
-/// What is wrong with one page of help: a line that is too long, an option without a text, words of
-/// a library, no usage line that can be pasted.
+/// Returns the faults of one page of help: a line that is too long, an option without a text,
+/// internal words of the library, no usage line that can be pasted.
 inline std::vector<std::string> page_faults(const std::string& program, const std::string& page)
 {
     std::vector<std::string> faults;
@@ -62,7 +62,7 @@ inline std::vector<std::string> listed_commands(const std::string& page)
     return names;
 }
 
-/// What is wrong with the help of a program: that of itself, of each of its commands, and the ways
+/// Returns the faults of a program's help: of its own page, of each command's page, and of the ways
 /// to ask for them.
 inline std::vector<std::string> help_faults(const std::string& program, const Prints& prints)
 {
@@ -89,7 +89,7 @@ inline std::vector<std::string> help_faults(const std::string& program, const Pr
     return faults;
 }
 
-/// The text that `parse`, a program's parser of command lines, gives for words.
+/// Returns the text that `parse`, a program's parser of command lines, produces for words.
 template <typename Parse>
 [[nodiscard]] Prints prints_of(std::string program, Parse parse)
 {
@@ -101,7 +101,7 @@ template <typename Parse>
     };
 }
 
-/// What `parse` refuses words with; "" where it takes them.
+/// Returns the complaint of `parse` about words; "" where it accepts them.
 template <typename Parse>
 [[nodiscard]] std::string refusal_of(Parse parse, const std::string& program,
                                      std::vector<std::string> words)

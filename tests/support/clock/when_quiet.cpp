@@ -78,12 +78,12 @@ public:
 private:
     static constexpr std::int64_t longest_max = 10 * ms;
     static constexpr double late_max = 0.005; // of the ticks, missed by a whole one or more
-    /// One that sleeps most of the time is woken soon, also where others are not: this looks at
+    /// A thread that mostly sleeps is woken soon, even where other threads wait, so this measures
     /// all.
     static constexpr double waited_max = 0.5;
 
-    /// For how long, since the start of the system, some program has waited for a processor; 0
-    /// where the kernel does not say (PSI).
+    /// Returns for how long some program has waited for a processor since the system's start; 0
+    /// where the kernel does not report it (PSI).
     [[nodiscard]] static std::int64_t waited_for_a_processor()
     {
         std::ifstream pressure{"/proc/pressure/cpu"};
@@ -124,8 +124,8 @@ private:
     std::thread thread_;
 };
 
-/// The exit code of the command; 128 + n when signal n ended it. After `most` it is ended, with all
-/// of its process group.
+/// Runs the command. Returns its exit code; 128 + n when signal n ended it. After `most` it is
+/// ended, with its whole process group.
 int run(char** command, std::int64_t most)
 {
     const pid_t parent = getpid();
@@ -142,7 +142,7 @@ int run(char** command, std::int64_t most)
         std::perror(command[0]);
         _exit(127);
     }
-    setpgid(child, child); // here, too: whoever comes first
+    setpgid(child, child); // here, too: the earlier call counts
     const std::int64_t end = now_ns() + most;
     int status = 0;
     while (waitpid(child, &status, WNOHANG) == 0) {

@@ -8,12 +8,12 @@
 
 namespace hapnet::test {
 
-/// A governor that is asked once per millisecond, with a new word of a healthy device each time.
+/// A governor that is called once per millisecond, each time with a new sample of a healthy device.
 class Governed {
 public:
     explicit Governed(const device::GovernorLimits& limits = {}) : governor{limits} {}
 
-    /// At full strength, at rest.
+    /// Returns a governor at full strength, at rest.
     static Governed ramped_in(const device::GovernorLimits& limits = {})
     {
         Governed governed{limits};
@@ -33,7 +33,7 @@ public:
         given = governor.govern({wanted, permitted}, sample, now);
         return given.force();
     }
-    /// So many ticks; the force of the last.
+    /// Plays this number of ticks. Returns the force of the last.
     base::Force play(int ticks, const base::Force& wanted, bool permitted = true)
     {
         for (int i = 0; i < ticks; ++i) (*this)(wanted, permitted);
@@ -42,7 +42,7 @@ public:
 
     device::Governor governor;
     device::Sample sample;
-    bool speaks = true; // the device says something new
+    bool speaks = true; // the device sends new samples
     device::GovernedForce given;
     base::TimePoint now{std::chrono::hours{1}};
 };

@@ -9,7 +9,7 @@
 
 namespace hapnet::device {
 
-/// A device that reports what its test puts into `sample`, and keeps what it was told. It has no
+/// A device that reports the `sample` of its test, and keeps the commands that it gets. It has no
 /// limits of its own.
 class ScriptedHand final : public Device {
 public:

@@ -6,7 +6,7 @@
 
 namespace hapnet::device {
 
-/// The one way around the governor, for tests of what stands behind it.
+/// The only way around the governor, for tests of the code behind it.
 struct UngovernedForTests {
     [[nodiscard]] static GovernedForce force(const base::Force& force)
     {

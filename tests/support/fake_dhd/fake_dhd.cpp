@@ -27,21 +27,21 @@ struct FakeDevice {
     bool stalled = false;
     bool tripped = false;
     bool in_error = false;
-    bool motors_on = true; // as the library leaves them where nobody asks
+    bool motors_on = true; // the library's state without a command
     std::array<double, 3> tip_m{};
     std::array<double, 3> velocity_m_per_s{};
     std::vector<FakeDhdCommand> commands;
 };
 
 struct Library {
-    std::mutex mutex; // of all below
+    std::mutex mutex; // protects all members below
     std::condition_variable changed;
     std::array<FakeDevice, serials.size()> devices;
 };
 
 Library& library()
 {
-    // Never destroyed: like the real one it may be in use when the process ends.
+    // Never destroyed: like the real library it may be in use when the process ends.
     static Library& it = *new Library;
     return it;
 }
@@ -54,7 +54,7 @@ int fail(int code)
     return failed;
 }
 
-/// Calls `what` with the open device; waits first while it is stalled.
+/// Calls `what` with the open device. While the device is stalled, it waits first.
 template <typename What>
 int with_device(Id id, What what)
 {

@@ -241,7 +241,7 @@ void hdStartScheduler()
     Library& it = library();
     if (it.running.exchange(true)) return;
     const std::lock_guard lock{it.mutex};
-    // As the vendor's reference can be read: forces are enabled with the scheduler.
+    // By the vendor's reference, forces are enabled with the scheduler.
     for (FakeDevice& device : it.devices) device.force_output = true;
     it.scheduler = std::thread{run_scheduler};
 }

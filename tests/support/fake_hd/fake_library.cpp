@@ -36,7 +36,7 @@ Library* new_library()
 
 Library& library()
 {
-    // Never destroyed: like the real one it may be in use when the process ends.
+    // Never destroyed: like the real library it may be in use when the process ends.
     static Library& it = *new_library();
     return it;
 }
@@ -49,7 +49,7 @@ void note(Handle handle, const FakeHdCommand& command)
     if (!it.log.is_open()) return;
     const auto& force = command.force_n;
     it.log << handle << ' ' << force[0] << ' ' << force[1] << ' ' << force[2] << ' '
-           << command.motors_on << std::endl; // out of the process before the next frame
+           << command.motors_on << std::endl; // written before the next frame
     if (device.calibrated && device.commands.size() > frames_in_inkwell) device.docked = false;
 }
 

@@ -26,7 +26,7 @@ struct FakeDevice {
     bool unplugged = false;
     bool garbled = false;
     bool warm = false;
-    bool force_output = true; // as the library has it before anyone asks
+    bool force_output = true; // the library's state without a command
     bool clamps = false;
     std::uint64_t failing_frame = 0; // counted down; 0: none
     glm::dvec3 frame_force{0.0};
@@ -36,7 +36,7 @@ struct FakeDevice {
 };
 
 struct Library {
-    std::mutex mutex; // of all below
+    std::mutex mutex; // protects all members below
     std::array<FakeDevice, names.size()> devices;
     std::vector<ErrorInfo> errors;
     Handle current = no_device;
@@ -57,10 +57,10 @@ struct Library {
     void complain(unsigned int code, Handle handle) { errors.push_back({code, 0, handle}); }
 };
 
-/// The one state of the library, as the real one has it.
+/// Returns the library's only state.
 [[nodiscard]] Library& library();
 
-/// A command has reached the device.
+/// Records a command that reached the device.
 void note(Handle handle, const FakeHdCommand& command);
 
 /// Calls the callback once a millisecond while the library runs: on the scheduler's thread.

@@ -29,7 +29,7 @@ constexpr double hand_stiffness_n_per_m = 300.0;
 constexpr double hand_damping_ns_per_m = 8.0;
 constexpr double free_damping_ns_per_m = 2.0;
 constexpr double step_s = 0.00025;
-constexpr double lives_at_most_s = 0.02; // in one go: a host that was away missed the rest
+constexpr double lives_at_most_s = 0.02; // at once; a longer absence of the host is skipped
 constexpr double reach_of_grip_m = 0.060;
 constexpr double stop_rad = -0.9; // the legs' lower stops, -52 degrees
 const base::Position all_the_way_in{{0.0, 0.0, -0.055}};
@@ -70,7 +70,7 @@ std::optional<std::vector<std::byte>> FakeFalcon::on_control(const umockdev::Usb
 {
     if (setup.type != to_vendor) return std::nullopt;
     switch (setup.request) {
-    case 0: // reset, 1: what is to go to the host
+    case 0: // reset, 1: bytes for the host
         if (setup.value <= 1) to_host_.clear();
         break;
     case 1: // modem lines: a rising DTR starts the loader anew

@@ -18,7 +18,7 @@
 
 namespace hapnet::test {
 
-/// How it describes itself on the bus.
+/// Returns the device's description on the bus.
 [[nodiscard]] umockdev::UsbDescription usb_of_falcon(const std::string& serial, int address = 2);
 
 /// A double of a Falcon and of the person who holds it, as far as public sources describe the
@@ -29,27 +29,26 @@ class FakeFalcon final : public umockdev::UsbModel {
 public:
     /// A firmware of our own making, which it takes for Novint's.
     [[nodiscard]] static const std::vector<std::byte>& firmware();
-    /// What it does not know to end: which time it is. Never runs backwards.
+    /// The clock of a device that cannot read one itself. It never runs backwards.
     using Clock = std::function<base::TimePoint()>;
 
     explicit FakeFalcon(Clock clock);
 
-    // What befalls it.
+    // Events of the device.
     void lose_firmware() { stage_ = Stage::cold; }          // as when its power was cut
-    void spoil_loads(int count) { spoiled_loads_ = count; } // the next so many go wrong
+    void spoil_loads(int count) { spoiled_loads_ = count; } // the next `count` loads fail
     void garble(bool on) { is_garbling_ = on; }             // it answers in nonsense
     void lose_homing() { legs_homed_ = 0; }
     void press(std::uint8_t buttons) { buttons_ = buttons; } // as in Report
 
-    // The person.
-    /// Pushes the grip to every stop when the device asks for it.
+    // The person. Pushes the grip to every stop when the device requests it.
     void help_homing() { helps_homing_ = true; }
-    /// Wants the grip there, and means to get there at 0.2 m/s at most; nullopt: lets it go.
+    /// Moves the grip there at 0.2 m/s at most; nullopt: releases it.
     void want(std::optional<base::Position> place) { wanted_ = place; }
 
-    // What it saw.
+    // Returns the commands that it received.
     [[nodiscard]] const std::vector<device::falcon::Command>& commands() const { return commands_; }
-    /// When it was last told a torque.
+    /// Returns the time of its last command with a torque.
     [[nodiscard]] base::TimePoint last_push() const { return last_push_; }
     [[nodiscard]] base::Position grip() const { return grip_; }
     [[nodiscard]] base::Force force() const { return force_; } // of the motors at the grip
@@ -87,11 +86,11 @@ private:
     base::Position grip_{};
     base::Velocity velocity_{};
     base::Force force_{};
-    device::falcon::Counts power_up_; // what the encoders said when they were zero
+    device::falcon::Counts power_up_; // the encoders' counts at power-up
     std::uint8_t legs_homed_ = 0;
     std::uint8_t buttons_ = 0;
     std::optional<base::Position> wanted_;
-    std::optional<base::Position> aim_; // of the hand, on its way there
+    std::optional<base::Position> aim_; // the hand's aim on its way there
     bool helps_homing_ = false;
     bool is_garbling_ = false;
     int spoiled_loads_ = 0;

@@ -10,7 +10,7 @@ namespace hapnet::hid_double {
 
 namespace {
 
-// The hand: that of the simulations, on a grip of 0.2 kg.
+// The hand of the simulations, on a grip of 0.2 kg.
 constexpr double mass_kg = 0.3;
 constexpr double stiffness_n_per_m = 300.0;
 constexpr double damping_ns_per_m = 10.0;
@@ -144,7 +144,7 @@ Push FakePid::push() const
     if (!actuators_enabled_) return sum;
     for (const Effect& effect : effects_) {
         if (!effect.is_taken || !plays(effect)) continue;
-        // It comes from there: so it pushes the other way.
+        // The effect comes from that direction, so it pushes the other way.
         const double angle = effect.direction * std::numbers::pi / 18000.0;
         const double force_n = force_full_n * effect.magnitude / magnitude_full;
         sum.force_n[0] -= force_n * std::round(std::sin(angle));

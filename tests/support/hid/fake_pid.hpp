@@ -14,7 +14,7 @@
 
 namespace hapnet::hid_double {
 
-/// What the motors of a double do.
+/// The forces of a double's motors.
 struct Push {
     std::array<double, 2> force_n{}; // right, away from the user
     bool motors_on = false;
@@ -24,37 +24,37 @@ struct Push {
 
 /// The double of a PID device: a joystick of two axes whose grip is a mass that a hand holds as by
 /// a spring. Reads and writes the bytes of pid_descriptor() by their places, on its own. It keeps
-/// to the durations of effects. It refuses to tell of its Pool, as some do that list one. Knows no
-/// clock: pass() tells it the time.
+/// to the durations of effects. It refuses its Pool report, like some devices that list one. It has
+/// no clock: pass() advances its time.
 class FakePid {
 public:
     explicit FakePid(ReportIds ids = {}) : ids_{ids} {}
 
-    // What comes from the host; each report begins with its ID.
+    // Takes a report from the host. It begins with its ID.
     void on_output(std::span<const std::byte> report);
     void on_feature(std::span<const std::byte> report);
-    /// nullopt: it knows no such feature.
+    /// nullopt: there is no such feature.
     [[nodiscard]] std::optional<std::vector<std::byte>> feature(std::uint8_t id) const;
 
     void pass(double seconds);
     [[nodiscard]] Push push() const;
-    /// Of all pushes since the beginning: one for each report that speaks of forces.
+    /// Returns all pushes since the beginning: one for each report about forces.
     [[nodiscard]] const std::vector<Push>& pushes() const { return pushes_; }
-    /// Where the grip is, metres: right, away from the user.
+    /// The place of the grip, metres: right, away from the user.
     [[nodiscard]] std::array<double, 2> grip() const { return at_m_; }
     [[nodiscard]] std::vector<std::byte> input_report() const;
 
     void press(bool down) { button_ = down; }
-    /// The hand wants the grip so far to the right, metres.
+    /// Sets the place to which the hand pulls the grip, metres to the right.
     void want(double right_m) { wanted_m_ = {right_m, 0.0}; }
-    /// So many places for effects; 40 at first.
+    /// Limits the number of effects, which is 40 at first.
     void limit_places(std::size_t places) { places_ = places; }
     void refuse_effects() { refuses_ = true; }
     [[nodiscard]] std::size_t places_taken() const;
     [[nodiscard]] std::uint8_t gain() const { return gain_; }
-    /// Effect starts that it has heard of.
+    /// Returns the number of effect starts received.
     [[nodiscard]] std::size_t starts() const { return starts_; }
-    /// As when it is plugged in anew.
+    /// Restores the state after plugging in.
     void power_up()
     {
         std::vector<Push> all = std::move(pushes_);

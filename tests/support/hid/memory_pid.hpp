@@ -13,18 +13,18 @@
 
 namespace hapnet::hid_double {
 
-/// What a double has said and not yet been heard, and what happens to it.
+/// The reports of a double that are not read yet, and faults for a test to set.
 struct Line {
     FakePid pid{};
     std::deque<std::vector<std::byte>> waiting{};
     bool is_gone = false;
     bool refuses = false;  // every write
     bool is_mute = false;  // answers no question
-    bool is_stuck = false; // it takes nothing for the time being
+    bool is_stuck = false; // takes no reports for the time being
     std::size_t questions = 0;
 };
 
-/// A wire without a system under it.
+/// A wire without an operating system below it.
 class MemoryWire final : public device::hid::Wire {
 public:
     explicit MemoryWire(Line& line) : line_{line} {}

@@ -10,7 +10,7 @@ namespace hapnet::hid_double {
 
 namespace {
 
-// The words of the standard: USB HID 1.11, 6.2.2; the value of each comes in its own size.
+// The items of the standard: USB HID 1.11, 6.2.2. The value of each has its own size.
 constexpr unsigned page = 0x04;
 constexpr unsigned usage = 0x08;
 constexpr unsigned usage_min = 0x18;
@@ -40,7 +40,7 @@ class Writer {
 public:
     Writer& say(unsigned item, long value)
     {
-        // A range has a sign, and all else has none.
+        // Only the values of ranges have a sign.
         const bool is_range = item == logical_min || item == logical_max || item == physical_min ||
                               item == physical_max || item == exponent;
         const long byte_max = is_range ? 127 : 255;
@@ -61,12 +61,12 @@ public:
         bytes_.push_back(std::byte{end});
         return *this;
     }
-    /// A collection with this usage in front.
+    /// Opens a collection, with this usage before it.
     Writer& open(unsigned its_usage, int kind)
     {
         return say(usage, its_usage).say(collection, kind);
     }
-    /// Values of so many bits from `low` to `high`.
+    /// Adds values of `bits` bits from `low` to `high`.
     Writer& values(unsigned kind, int bits, int how_many, int flags)
     {
         return say(size, bits).say(count, how_many).say(kind, flags);

@@ -8,8 +8,8 @@
 
 namespace hapnet::hid_double {
 
-/// Report IDs of the doubles: those of OpenFFBoard, as its source gives them, all moved by
-/// `moved`, as other devices have others.
+/// Report IDs of the doubles: those of OpenFFBoard's source, plus `moved`, because other devices
+/// have other IDs.
 struct ReportIds {
     std::uint8_t moved = 0;
 
@@ -36,7 +36,7 @@ private:
 /// in the manner of OpenFFBoard's: 16 buttons and six axes of 16 bits; device controls are bits.
 [[nodiscard]] std::vector<std::byte> pid_descriptor(ReportIds ids = {});
 
-/// The report descriptor of a SpaceMouse, as far as it is looked at: a multi-axis controller with
+/// The report descriptor of a SpaceMouse, as far as it is read: a multi-axis controller with
 /// translation and rotation in one report each, and buttons.
 [[nodiscard]] std::vector<std::byte> spacemouse_descriptor();
 

@@ -33,7 +33,7 @@ json object_of(const glm::dvec3& it) { return {{"x", it.x}, {"y", it.y}, {"z", i
 } // namespace
 
 struct FakeInverseService::State {
-    mutable std::mutex mutex; // of all that changes
+    mutable std::mutex mutex; // protects all members that change
     std::condition_variable changed;
     std::array<bool, 7> fates{};
     bool is_stopping = false;
@@ -50,7 +50,7 @@ struct FakeInverseService::State {
 
     [[nodiscard]] bool is(Fate fate) const { return fates.at(static_cast<std::size_t>(fate)); }
 
-    /// What it says of the device; the configuration only in the first message.
+    /// Returns a message about the device. Only the first message has the configuration.
     [[nodiscard]] std::string message(int connection, bool is_first) const
     {
         if (is(Fate::garbled) && !is_first) return R"({"inverse3":[{"device_id":)";

@@ -10,9 +10,9 @@
 
 namespace hapnet::test {
 
-/// Behaves as we read the public reference of the vendor's local service: says what devices there
-/// are when it is connected to, and then one state for each message. It has one device, 049D, which
-/// a hand holds. A thread for each connection.
+/// A service that behaves as the public reference of the vendor's local service describes: after a
+/// connection it lists its devices, and then sends one state for each message. It has one device,
+/// 049D, which a hand holds. Each connection has a thread.
 class FakeInverseService {
 public:
     FakeInverseService();
@@ -30,13 +30,13 @@ public:
         unpowered,
         garbled, // states are no JSON
         mute,    // it neither reads nor answers
-        permuted // it was told to permute its axes
+        permuted // it was configured to permute its axes
     };
     void set(Fate fate, bool on);
-    /// Ends all connections, and takes no more.
+    /// Ends all connections, and accepts no more.
     void stop();
 
-    /// All forces that it was told, in its frame, in their order.
+    /// Returns all forces that it received, in its frame, in their order.
     [[nodiscard]] std::vector<glm::dvec3> forces() const;
 
 private:

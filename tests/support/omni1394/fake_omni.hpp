@@ -15,39 +15,38 @@
 
 namespace hapnet::device::omni1394 {
 
-/// What stands in for a FireWire Omni behind its bus: registers, a mechanism, and a hand. It is
-/// our reading of the descriptions, and proves nothing about the device.
+/// A double of a FireWire Omni behind its bus: registers, a mechanism, and a hand. It follows
+/// public descriptions, and proves nothing about the device.
 class FakeOmni {
 public:
-    /// One serial number is that of 0x83a6d80e, a quadlet that was seen.
+    /// One of the serial numbers is that of the quadlet 0x83a6d80e, which was observed.
     explicit FakeOmni(bool begins_docked = true, std::uint32_t serial = 0x83a6d80e);
 
-    // The bus. nullopt, false: there is no such register.
+    // The bus. nullopt and false: there is no such register.
     [[nodiscard]] std::optional<std::vector<std::byte>> read_register(std::uint64_t address,
                                                                       std::size_t size) const;
     [[nodiscard]] bool write_register(std::uint64_t address, std::span<const std::byte> bytes);
     [[nodiscard]] bool is_streaming() const;
-    /// A packet to it.
+    /// Takes a packet from the host.
     void hear(std::span<const std::byte> bytes);
-    /// Lives, and says what it then has to say; nothing when it does not stream or has stalled.
+    /// Advances its time. Returns its next packet; nothing when it does not stream or has stalled.
     [[nodiscard]] std::vector<std::byte> live(base::Duration elapsed);
 
-    // Fate.
-    /// The hand goes there within a second, and stays.
+    // States and events. The hand goes there within a second, and stays.
     void lead_to(const base::Position& place);
     void press(std::uint8_t buttons) { buttons_ = buttons; }
     void stall(bool on) { stalls_ = on; }
     void garble(bool on) { garbles_ = on; }
-    /// The encoders are off by so much from now on.
+    /// Shifts the encoders from now on.
     void jump(const omni::Counts& counts) { off_ += counts; }
     void skip(std::uint32_t messages) { message_ += messages; }
 
-    /// What it has heard; nullopt where it made no sense.
+    /// Returns the packets received; nullopt for those that could not be decoded.
     [[nodiscard]] const std::vector<std::optional<HostPacket>>& heard() const { return heard_; }
     [[nodiscard]] std::span<const std::uint64_t> written() const { return written_; }
     [[nodiscard]] const JointPlant& plant() const { return plant_; }
 
-    /// What counts of its motors do, N m: as the driver estimates it.
+    /// Returns the torque of motor counts, N m, as the driver estimates it.
     [[nodiscard]] static glm::dvec3 torque_of(const glm::ivec3& motors)
     {
         return omni::torque_max_nm * glm::dvec3{motors} / double{motor_max};

@@ -123,7 +123,7 @@ void FirewireOmni::unplug()
             client.runs = false;
             client.events.clear();
         }
-        std::ignore = ::write(master_, "!", 1); // who waits is to ask, and be told
+        std::ignore = ::write(master_, "!", 1); // the waiting program then asks for the event
     }
     testbed_.remove("/sys" + path_of(number_));
 }
@@ -136,7 +136,7 @@ void FirewireOmni::plug_in()
         close(std::exchange(slave_, -1));
         clients_.clear();
         omni_ = FakeOmni{};
-        ++number_; // umockdev has no terminal twice
+        ++number_; // umockdev never reuses a terminal
     }
     testbed_.add(testbed_text(path_of(number_), number_));
     attach();
@@ -179,7 +179,7 @@ void FirewireOmni::tell(Client& client, Bytes event)
     std::ignore = ::write(slave_ < 0 ? -1 : master_, "!", 1);
 }
 
-/// The bell is for all: it stops once nobody has anything to hear.
+/// The bell is for all clients. It stops once none of them has an event to read.
 void FirewireOmni::silence()
 {
     const bool is_quiet = std::all_of(clients_.begin(), clients_.end(), [](const auto& entry) {
@@ -204,7 +204,7 @@ bool FirewireOmni::on_ioctl(const umockdev::Request& request)
 int FirewireOmni::answer(const umockdev::Request& request, Client& client)
 {
     switch (request.code()) {
-    case FW_CDEV_IOC_GET_INFO: // the first that everyone asks
+    case FW_CDEV_IOC_GET_INFO: // the first request of every program
         client = Client{};
         get_info(request);
         return 0;
@@ -223,7 +223,7 @@ int FirewireOmni::answer(const umockdev::Request& request, Client& client)
         return 0;
     case FW_CDEV_IOC_FLUSH_ISO:
         if (!client.context) return EINVAL;
-        transmit(client, 8); // while it asks, time passes on the bus
+        transmit(client, 8); // while a program asks, time passes on the bus
         return 0;
     default: return ENOTTY;
     }
@@ -282,7 +282,7 @@ void FirewireOmni::allocate(const umockdev::Request& request, Client& client)
 
 int FirewireOmni::create_context(const umockdev::Request& request, Client& client)
 {
-    if (client.context) return EBUSY; // one for each descriptor
+    if (client.context) return EBUSY; // one context for each descriptor
     const auto wanted =
         request.argument(sizeof(fw_cdev_create_iso_context)).as<fw_cdev_create_iso_context>();
     if (wanted.header_size % 4 != 0 || wanted.header_size < 4) return EINVAL;

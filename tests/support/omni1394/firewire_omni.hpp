@@ -16,20 +16,20 @@
 
 namespace hapnet::device::omni1394 {
 
-/// A FireWire Omni in a testbed: the kernel's firewire-cdev in front of a double. Its time is what
-/// live() gives it. All functions may be called from any thread.
+/// A FireWire Omni in a testbed: the kernel's firewire-cdev in front of a double. live() advances
+/// its time. All functions may be called from any thread.
 class FirewireOmni final : private umockdev::Handler {
 public:
     /// At /dev/fw<number>.
     FirewireOmni(umockdev::Testbed& testbed, int number, FakeOmni omni);
     ~FirewireOmni() override;
 
-    /// So many milliseconds of eight cycles: what is queued is sent, and it says what it has to
-    /// say each time.
+    /// Plays milliseconds of eight cycles each: sends queued packets, and takes the device's
+    /// packets.
     void live(int milliseconds);
     void reset_bus();
     void unplug();
-    /// ... and in again, at the next number: for who opens it anew.
+    /// Plugs it in again, at the next number, for programs that reopen it.
     void plug_in();
     /// No register answers while this is on.
     void refuse(bool on);
@@ -48,10 +48,10 @@ private:
         Bytes bytes;
         bool interrupts = false;
     };
-    /// Who has opened it, and what it has asked for.
+    /// A program that has opened it, and its requests.
     struct Client {
         bool has_gone = false;
-        /// umockdev does not say when its own process closes something: then this is false.
+        /// False after umockdev's own process closed it, which umockdev does not report.
         bool is_in_use = false;
         std::deque<Bytes> events;
         std::optional<std::uint32_t> context; // its type
@@ -87,9 +87,9 @@ private:
     std::int32_t channels_given_ = 0;
     unsigned cycle_ = 0;
     bool refuses_ = false;
-    int master_ = -1; // of the terminal that the node is: a byte in it is a bell
+    int master_ = -1; // master of the terminal that stands for the node: a byte in it is a bell
     int slave_ = -1;
-    std::optional<umockdev::Attachment> attachment_; // last: it ends before what it uses
+    std::optional<umockdev::Attachment> attachment_; // the last member, because it uses the others
 };
 
 } // namespace hapnet::device::omni1394

@@ -15,7 +15,7 @@ struct MemoryBus {
     FakeOmni omni;
     std::deque<ReceivedPacket> packets{};
     unsigned cycle = 0;
-    int resets = 0; // not told yet
+    int resets = 0; // bus resets not reported yet
     bool gone = false;
     bool refuses = false; // every register
     bool is_open = false;

@@ -30,13 +30,13 @@ public:
         const double low = base::log(least);
         return base::exp(low + (base::log(most) - low) * share());
     }
-    /// In a direction first, then so long.
+    /// A vector in a random direction, with a length as of power().
     glm::dvec3 vector_of_power(double least, double most)
     {
         const glm::dvec3 direction = vector();
         return power(least, most) * direction;
     }
-    /// From the cube [-1, 1)^3.
+    /// A vector in the cube [-1, 1)^3.
     glm::dvec3 vector()
     {
         const double x = sign();

@@ -39,7 +39,7 @@ BodyDescription fixed_box(const glm::dvec3& half, const glm::dvec3& at,
     return body;
 }
 
-/// Six walls around a room, or five: then it is open above.
+/// Adds six walls around a room, or five, for a room that is open above.
 void add_room(Description& scene, const glm::dvec3& room, const scene::Material& material,
               bool is_open)
 {
@@ -123,7 +123,7 @@ void add_hands(Dice& dice, EverydayPlay& play)
     if (dice.one_in(2)) hands.force_max_n = 3.3;
     const double tick = base::to_seconds(play.options.tick);
     for (std::uint32_t hand = 0; hand < hands.count; ++hand) {
-        // Beyond the room at first, so that no spring is pressed at the start.
+        // Starts outside of the room, so that no spring is pressed at the start.
         const glm::dvec3 from{0.0, 2.0 * play.room.y + 0.2, 0.0};
         play.hands.push_back(from);
         play.legs.emplace_back();
@@ -321,8 +321,8 @@ double energy_of(const scene::World& world, const Description& scene)
     return sum;
 }
 
-/// Whether a place is beyond the walls. What leaves an open room above its walls may lie beside it,
-/// but not under it.
+/// True if a place is outside of the walls. A body that leaves an open room at the top may lie
+/// beside the room, but not below it.
 bool is_out(const EverydayPlay& play, const glm::dvec3& place)
 {
     const glm::dvec3 beyond = glm::abs(place) - play.room;

@@ -13,7 +13,7 @@ namespace hapnet::test {
 
 /// A kind of scene that people build every day.
 enum class Everyday : std::uint8_t {
-    mild,    // bodies of like size and weight in a room, with hands
+    mild,    // bodies of similar size and weight in a room, with hands
     tray,    // small parts that fall into a tray
     rattle,  // one spinning box in a closed cube
     pens,    // plates on capsules
@@ -45,9 +45,9 @@ struct EverydayPlay {
 /// Draws a play. It is a pure function of the kind, the seed and the tick.
 [[nodiscard]] EverydayPlay everyday_play(Everyday kind, std::uint64_t seed, base::Duration tick);
 
-/// What became of a play, by formulas of this judge: it uses no number of the scene's code.
+/// The result of a play, by formulas of this judge, which uses no number of the scene's code.
 struct EverydayOutcome {
-    /// The largest energy above that at the start and the work of hands, as a share of the scale:
+    /// The largest energy beyond that at the start and the work of hands, as a share of the scale:
     /// kinetic energy at the start, weight times height, and the work of hands.
     double gain = 0.0;
     double kept = 0.0;        // energy at the end over that at the start
@@ -56,7 +56,7 @@ struct EverydayOutcome {
 };
 [[nodiscard]] EverydayOutcome play_everyday(const EverydayPlay& play);
 
-/// Whether two bodies of one part, taken as boxes, overlap: by 15 separating axes.
+/// True if two bodies of one part, taken as boxes, overlap: by 15 separating axes.
 [[nodiscard]] bool boxes_overlap(const scene::BodyDescription& a, const scene::BodyDescription& b);
 
 /// Kinetic energy of a body of one part, from its shape and its motion, J.

@@ -8,7 +8,7 @@ namespace {
 
 glm::dvec3 flipped(const glm::dvec3& v) { return {-v.x, v.y, v.z}; }
 glm::dquat flipped(const glm::dquat& q) { return {q.w, q.x, -q.y, -q.z}; }
-/// What turns is mirrored the other way round.
+/// Rotation is mirrored with the opposite sign.
 glm::dvec3 flipped_turn(const glm::dvec3& v) { return {v.x, -v.y, -v.z}; }
 
 } // namespace

@@ -6,8 +6,8 @@
 
 namespace hapnet::test {
 
-/// Makes some of a scene's fixed bodies kinematic, and adds planes that hands feel, fields of force
-/// and springs and friction of bodies' and hands' own; each in some scenes.
+/// Makes some of a scene's fixed bodies kinematic. Adds felt planes, fields of force, and springs
+/// and friction of single bodies and hands; each in some scenes.
 void add_elements(std::uint64_t seed, RandomPlay& play);
 
 /// Adds pushes at points, torques and blows, and drives and moves of kinematic bodies.

@@ -15,7 +15,7 @@ namespace {
 using scene::BodyDescription;
 using scene::Description;
 
-/// A point of a body as it was in the beginning: of a face, an edge, a corner, or inside.
+/// A point of a body at its first place: on a face, an edge or a corner, or inside.
 glm::dvec3 goal(Dice& dice, const Description& description)
 {
     const BodyDescription& body = description.bodies[dice.below(description.bodies.size())];

@@ -6,9 +6,9 @@
 
 namespace hapnet::test {
 
-/// What hands do in so many ticks around where the scene's bodies began: each makes for a body's
-/// face, edge, corner or inside at a speed of its own, and now and then is suddenly elsewhere. In
-/// one scene of four nobody pushes and no hand is there.
+/// The hands' inputs for `ticks` ticks, near the bodies' first places. Each hand moves to a body's
+/// face, edge, corner or inside at a speed of its own, and sometimes jumps elsewhere. One scene in
+/// four has no hand and no pushes.
 [[nodiscard]] std::vector<TickInputs> random_inputs(std::uint64_t seed, const RandomPlay& play,
                                                     std::uint32_t ticks);
 

@@ -25,7 +25,7 @@ using scene::Turning;
 
 enum class Layout : std::uint8_t { loose, row, stack, heap };
 
-/// What all bodies of a scene have in common.
+/// The common properties of a scene's bodies.
 struct Style {
     double size = 0.02; // m
     double mass = 0.1;  // kg
@@ -127,7 +127,7 @@ BodyDescription random_body(Dice& dice, const Style& style, std::size_t index)
     return body;
 }
 
-/// A floor under the lowest corners, and sometimes walls.
+/// Adds a floor below the lowest corners, and sometimes walls.
 void add_planes(Dice& dice, const Style& style, Description& drawn)
 {
     if (dice.one_in(4)) return;
@@ -186,7 +186,7 @@ Description random_description(Dice& dice, const PlayLimits& limits, double tick
     return drawn;
 }
 
-/// Makes spheres and capsules of some bodies: such as have room within them.
+/// Turns some bodies into spheres and capsules, if these fit inside them.
 void make_round(std::uint64_t seed, Description& drawn)
 {
     Dice dice{base::Seed{seed}.stream("round")};
@@ -208,7 +208,7 @@ void make_round(std::uint64_t seed, Description& drawn)
     }
 }
 
-/// Gives some bodies further parts, which begin anywhere near the first.
+/// Adds further parts to some bodies, which begin anywhere near the first part.
 void add_parts(std::uint64_t seed, Description& drawn)
 {
     Dice dice{base::Seed{seed}.stream("parts")};
@@ -252,7 +252,7 @@ RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits)
     }
     const auto needed =
         scene::required_features(scene::requirements_of(play.description, play.options.sleeping));
-    if (dice.one_in(3)) { // any profile that will do
+    if (dice.one_in(3)) { // any profile that can play it
         const auto any = static_cast<scene::StepperKind>(dice.below(scene::stepper_kinds));
         if (scene::abilities_of(any).covers(needed)) play.options.stepper = any;
     }

@@ -9,7 +9,7 @@
 
 namespace hapnet::test {
 
-/// A force at a point and a torque, or an impulse at a point; the point from the body's centre.
+/// A force at a point and a torque, or an impulse at a point, relative to the body's centre.
 struct Twist {
     scene::BodyId body = 0;
     glm::dvec3 force{0.0};
@@ -22,7 +22,7 @@ struct Blow {
     glm::dvec3 at{0.0};
 };
 
-/// How a kinematic body goes on: with velocities, or to a place from where it is.
+/// A command to a kinematic body: velocities, or a place relative to its present one.
 struct Drive {
     scene::BodyId body = 0;
     glm::dvec3 velocity{0.0};
@@ -30,7 +30,7 @@ struct Drive {
     bool is_way = false;
 };
 
-/// What is done to a world before one of its ticks.
+/// The inputs of a world before one of its ticks.
 struct TickInputs {
     std::vector<scene::HandInput> hands;
     std::vector<std::pair<scene::BodyId, base::Force>> pushes;
@@ -47,12 +47,12 @@ inline constexpr std::uint64_t round_plays_from = 1'000'000'000;
 /// springs and friction of their own; and pushes at points, torques, blows and drives.
 inline constexpr std::uint64_t elements_from = 1'000'000'000'000;
 
-/// What random scenes are drawn from.
+/// Limits on random scenes.
 struct PlayLimits {
     std::uint32_t bodies_max = 40;
     std::uint32_t ticks_min = 20;
     std::uint32_t ticks_max = 60;
-    // What is added to the scene that the seed gives without.
+    // Additions to the scene that the seed gives.
     bool compounds = false; // further parts
 };
 
@@ -70,14 +70,14 @@ struct RandomPlay {
 /// bodies that are put elsewhere. From `elements_from` on, more. A pure function of the seed.
 [[nodiscard]] RandomPlay random_play(std::uint64_t seed, const PlayLimits& limits = {});
 
-/// Whether a world takes a twist of a body that is there, and not thrown out of all reach.
+/// True if a world accepts a twist of this body, which exists and was not thrown out of reach.
 [[nodiscard]] bool is_in_reach(const glm::dvec3& position, const Twist& twist);
 
-/// Gives a world its inputs of a tick. None of them is refused, but a blow that would be too much;
-/// twists out of reach are left out.
+/// Gives a world its inputs of a tick. Only a blow that is too strong may be refused. Twists out of
+/// reach are left out.
 void feed(scene::World& world, const TickInputs& inputs);
 
-/// The scene and what happens to it as a mirror in the plane x = 0 shows them.
+/// Returns the scene and its inputs, mirrored in the plane x = 0.
 [[nodiscard]] RandomPlay mirrored(RandomPlay play);
 [[nodiscard]] scene::BodyState mirrored(scene::BodyState state);
 

@@ -26,21 +26,21 @@ using scene::BodyState;
 using scene::Turning;
 using scene::World;
 
-// Of the energy that is there.
+// Relative to the present energy.
 constexpr double energy_tolerance = 1e-6;
-// Of the sum of all momenta and impulses.
+// Relative to the sum of all momenta and impulses.
 constexpr double momentum_tolerance = 1e-10;
-// Of the sizes of what hands report: they may cancel each other, and a sum of them has no more
-// digits than its largest part.
+// Relative to the sizes of the hands' reports. They may cancel each other, and a sum of them has no
+// more digits than its largest part.
 constexpr double report_rounding = 4.0 * std::numeric_limits<double>::epsilon();
-constexpr double force_tolerance = 1e-6; // of a direction held while it turns
+constexpr double force_tolerance = 1e-6; // for a direction held while it turns
 constexpr double unit_tolerance = 1e-12;
-// Of the smallest half edge in a tick: what crosses so little is at rest.
+// In smallest half edges per tick: a slower body is at rest.
 constexpr double speed_scale = 1e-6;
 // Radians in a tick beyond which a body's inertia is not what it was: then no energy of turning
 // within what its angular momentum allows is too much.
 constexpr double far_turn = 0.25;
-// How many movable bodies one hand may push.
+// The number of movable bodies that one hand may push.
 constexpr double touched_max = 8.0;
 
 double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
@@ -85,7 +85,7 @@ glm::dvec3 free_part(const BodyDescription& form, glm::dvec3 v)
     return v;
 }
 
-/// The energy that a grip can have given to the body that it holds: what its force can do.
+/// The largest energy that a grip can have given to its body: the work of its largest force.
 double most_from_grip(const World& world, std::uint32_t hand, double fastest)
 {
     const double impulse = world.frozen().tick * base::norm(world.touch(hand).on_body);
@@ -93,8 +93,8 @@ double most_from_grip(const World& world, std::uint32_t hand, double fastest)
     return within * impulse * fastest;
 }
 
-/// The energy that a hand can have given to one body that it pushes: what its springs stored at the
-/// tick's start, of so many contacts, and the work of its own motion.
+/// The largest energy that a hand can have given to one body that it pushes: the energy stored in
+/// its springs at the tick's start, for this number of contacts, and the work of its own motion.
 double most_from_push(const World& world, std::uint32_t hand, double contacts)
 {
     scene::HandDescription hands = world.frozen().hands;
@@ -114,7 +114,7 @@ double most_from_push(const World& world, std::uint32_t hand, double contacts)
            impulse * base::norm(world.state().hands[hand].velocity);
 }
 
-/// From its centre of mass to its farthest corner, at most.
+/// The largest distance of a corner from the centre of mass.
 double radius_of(const BodyDescription& form)
 {
     return length(form.parts.empty() ? form.half : scene::half_around(scene::parts_of(form)));
@@ -209,7 +209,7 @@ std::optional<std::string> SceneLaws::check_hands(const World& world)
     return std::nullopt;
 }
 
-/// Gravity and pushes. The world forgets pushes at the tick's end; they are the play's.
+/// Returns gravity and the play's pushes, because the world clears pushes at the tick's end.
 glm::dvec3 SceneLaws::steady_force(const World& world, BodyId id, bool sleeps) const
 {
     const BodyDescription& form = play_.description.bodies[id];
@@ -247,7 +247,7 @@ void SceneLaws::add_driven(Balance& balance, const World& world, BodyId id) cons
     const BodyState now = world.body(id);
     const double radius = radius_of(play_.description.bodies[id]);
     const glm::dvec3 moved = (now.position.value - was.position.value) / world.frozen().tick;
-    // A turn of the tick, for what is moved to a place.
+    // The rotation of the tick, for a body that is moved to a place.
     const glm::dquat by = now.orientation * glm::conjugate(was.orientation);
     const double turned = 2.0 * length({by.x, by.y, by.z}) / world.frozen().tick;
     const double spin =
@@ -258,11 +258,11 @@ void SceneLaws::add_driven(Balance& balance, const World& world, BodyId id) cons
     balance.fastest = std::max(balance.fastest, speed + spin * radius);
 }
 
-/// By how much the energy of a body that turns may be wrong.
+/// Returns the error of the energy of a rotating body.
 double SceneLaws::turning_slack(const BodyDescription& form, const Moment& was, const Moment& now,
                                 double angle)
 {
-    // The spin changes while the angular momentum stays: in the impulses of contacts it counts.
+    // The spin changes while the angular momentum stays, which matters for contact impulses.
     const glm::dvec3 inertia = scene::inertia_of(form);
     const double wobble =
         std::max({inertia.x, inertia.y, inertia.z}) / std::min({inertia.x, inertia.y, inertia.z}) -
@@ -371,12 +371,12 @@ double SceneLaws::most_from_hand(const World& world, std::uint32_t hand, double 
         contacts = std::max(contacts, 1.0 + static_cast<double>(form.parts.size()));
     if (!world.touch(hand).holding)
         return std::min(touched_max, movable_) * most_from_push(world, hand, contacts);
-    // The one that it holds may be far away.
+    // The body that it holds may be far away.
     const double others = std::min({touched_max, movable_ - 1.0, within_reach(world, hand)});
     return most_from_grip(world, hand, fastest) + others * most_from_push(world, hand, contacts);
 }
 
-/// How many movable bodies can have touched a hand in the tick.
+/// The largest number of movable bodies that touched a hand in the tick.
 double SceneLaws::within_reach(const World& world, std::uint32_t hand) const
 {
     const scene::HandInput& input = world.state().hands[hand];
@@ -394,8 +394,8 @@ double SceneLaws::within_reach(const World& world, std::uint32_t hand) const
 }
 
 /// The energy that kinematic bodies can have given: by each contact its impulse, with friction, at
-/// the speed of the surface or at that of the body, whichever is less. What fast bodies passed each
-/// other within the tick is in no contact, but in their momentum.
+/// the speed of the surface or at that of the body, whichever is less. Impulses that fast bodies
+/// exchanged within the tick are in no contact, but in the bodies' momentum.
 double SceneLaws::driven_energy(const World& world, const Balance& balance) const
 {
     if (balance.driven == 0.0) return 0.0;
@@ -438,7 +438,7 @@ std::optional<std::string> SceneLaws::check_energy(const World& world, const Bal
 
 std::optional<std::string> SceneLaws::check_ways(const World& world, const Balance& balance) const
 {
-    // What slides is put out of what it is in at once.
+    // A sliding body that overlaps something is moved out of it at once.
     if (world.stepper_kind() <= scene::StepperKind::sliding_coulomb) return std::nullopt;
     for (std::uint32_t i = 0; i < play_.description.hands.count; ++i) {
         if (world.touch(i).touching) return std::nullopt;
@@ -459,7 +459,7 @@ std::optional<std::string> SceneLaws::check_ways(const World& world, const Balan
 std::optional<std::string> SceneLaws::check_momentum(const World& world, const Balance& balance)
 {
     if (!nothing_is_fixed_ || balance.any_fell_asleep) return std::nullopt;
-    // What a hand feels of fields is no body's.
+    // The force of a field on a hand acts on no body.
     for (const scene::FieldDescription& field : play_.description.fields) {
         if (field.on_hands) return std::nullopt;
     }
@@ -482,7 +482,7 @@ std::optional<std::string> SceneLaws::check_momentum(const World& world, const B
     for (const BodyDescription& form : play_.description.bodies) {
         if (form.turning != Turning::free) return std::nullopt;
     }
-    // Impulses act at points held for the tick, during which those that push each other pass.
+    // Impulses act at points held for the tick, during which touching bodies move past each other.
     const double rotated = length(balance.angular_gain);
     const double allowed = momentum_tolerance * balance.angular + balance.astray +
                            tick * balance.jolt * balance.fastest;

@@ -9,7 +9,7 @@
 
 namespace hapnet::test {
 
-/// The worst that was seen, in the units of each law's tolerance: above 1 it is broken.
+/// The worst values seen, in units of each law's tolerance: above 1 the law is broken.
 struct LawFigures {
     double energy = 0.0;
     double momentum = 0.0;
@@ -17,37 +17,36 @@ struct LawFigures {
     double force = 0.0; // of the greatest force that a hand may exert
 };
 
-/// What has to hold for every tick of every world:
-/// - every number is finite, orientations are unit, locked axes and fixed bodies stay where they
-///   are, what sleeps does not move and has no velocity; and, without hands, nobody goes farther in
-///   a tick than twice the way of the fastest, and his own size; or, in a tick with several touches
-///   of continuous collision, than the energy that there is can make him;
-/// - a hand exerts no more than its greatest force (1e-6 of it tolerated);
-/// - kinetic energy grows by no more than the work of gravity,
-///   pushes and hands (tolerated: 1e-6 of
-///   what is there, and for each body m v^2 with v twice what its forces add in a tick, and what
-///   its energy of turning may differ by for the same angular momentum when it turns far);
-/// - kinematic bodies give no more than what they pass on at the speed of their fastest corner;
-/// - where nothing is fixed, momentum changes by what gravity, pushes and hands give (1e-10 of the
-///   sum of all amounts tolerated, of what hands give together, and the digits of each); and
-///   angular momentum, without hands, by what gravity and pushes give (tolerated: what the bodies
-///   pass each other in a tick times the impulses).
-/// A body moves at the mean of its velocities before and after the tick, but where it bounces, so
-/// that the work of a steady force and of every impulse is known: with the inertia as it is before
-/// the tick, or, of torques, as it becomes, or by the angle that the body turned.
+/// The laws that hold for every tick of every world:
+/// - Every number is finite, orientations are unit, locked axes and fixed bodies stay where they
+///   are, and sleeping bodies have no velocity and do not move. Without hands, no body goes farther
+///   in a tick than twice the way of the fastest one and its own size; or, after several touches of
+///   continuous collision in a tick, than the present energy can move it.
+/// - A hand exerts no more than its greatest force (tolerated: 1e-6 of it).
+/// - Kinetic energy grows by no more than the work of gravity, pushes and hands. Tolerated: 1e-6 of
+///   the present energy; for each body m v^2 with v twice what its forces add in a tick; and, for a
+///   body that turns far, the range of its rotational energy at its angular momentum.
+/// - Kinematic bodies give no more energy than they pass on at the speed of their fastest corner.
+/// - Where nothing is fixed, momentum changes by what gravity, pushes and hands give. Tolerated:
+///   1e-10 of the sum of all amounts and of the hands' total, and the rounding of each amount.
+///   Without hands, angular momentum changes by what gravity and pushes give. Tolerated: the motion
+///   of bodies past each other in a tick times the impulses.
+/// A body moves at the mean of its velocities before and after the tick, except when it bounces. So
+/// the work of a steady force and of every impulse is known: with the inertia before the tick, or
+/// for torques the inertia after it, or by the angle that the body turned.
 class SceneLaws {
 public:
     explicit SceneLaws(const RandomPlay& play);
 
-    /// Just before a tick, with the inputs given.
+    /// Call it just before a tick, with the inputs given.
     void before(const scene::World& world);
-    /// Just after it: the law that was broken, if any, with numbers.
+    /// Call it just after the tick. Returns the law that was broken, if any, with numbers.
     [[nodiscard]] std::optional<std::string> after(const scene::World& world);
 
     [[nodiscard]] const LawFigures& worst() const { return worst_; }
 
 private:
-    /// A hand has one contact with a body at most, or one with each of its parts.
+    /// Returns the number of contacts of a hand with a body: one at most, or one with each part.
     [[nodiscard]] double contacts_on(const scene::HandTouch& touch) const
     {
         return 1.0 + static_cast<double>(play_.description.bodies[touch.body].parts.size());
@@ -112,7 +111,7 @@ private:
     LawFigures worst_;
 };
 
-/// What became of a play.
+/// The result of a play.
 struct PlayOutcome {
     std::optional<std::string> complaint; // with the tick
     LawFigures worst;
@@ -120,8 +119,8 @@ struct PlayOutcome {
     std::uint64_t hash = 0;
 };
 
-/// Plays it under the laws; and, from a tick that the seed draws, once more from a snapshot: to
-/// the same hash.
+/// Plays it under the laws, and once more from a snapshot at a drawn tick, which must give the same
+/// hash.
 [[nodiscard]] PlayOutcome judge(const RandomPlay& play, std::uint64_t seed);
 
 } // namespace hapnet::test

@@ -16,7 +16,7 @@ using scene::Turning;
 glm::dvec3 inertia_about_axes(const BodyDescription& form)
 {
     const glm::dvec3 own = scene::inertia_of(form);
-    if (form.parts.empty()) return own; // the same axes, or as many alike
+    if (form.parts.empty()) return own; // the same axes, or equal moments
     const glm::dmat3 axes = glm::mat3_cast(scene::frame_of_mass(form).orientation);
     glm::dvec3 about{0.0};
     for (const int axis : {0, 1, 2}) about += axes[axis] * axes[axis] * own[axis];

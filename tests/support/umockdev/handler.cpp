@@ -57,7 +57,7 @@ void Memory::write(std::size_t offset, std::span<const std::byte> bytes)
 {
     if (!data_ || bytes.empty()) return;
     base::ensure(offset + bytes.size() <= this->bytes().size());
-    // Its library takes what it does not change by a pointer to what may change.
+    // The library takes constant data by a non-const pointer.
     std::vector<guint8> copy(bytes.size());
     std::memcpy(copy.data(), bytes.data(), bytes.size());
     umockdev_ioctl_data_update(data_.get(), offset, copy.data(), static_cast<gint>(copy.size()));

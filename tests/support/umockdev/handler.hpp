@@ -28,7 +28,7 @@ public:
     Memory() = default;
     explicit Memory(UMockdevIoctlData* owned); // or none
 
-    /// Where it lies in the program.
+    /// Returns its address in the program.
     [[nodiscard]] unsigned long address() const;
     [[nodiscard]] std::span<const std::byte> bytes() const;
     void write(std::size_t offset, std::span<const std::byte> bytes);
@@ -60,32 +60,32 @@ private:
     std::shared_ptr<UMockdevIoctlData> data_;
 };
 
-/// What a program asks of a device node, to be answered once, now or later: it waits so long.
+/// A program's request to a device node. It waits until the one answer, now or later.
 class Request {
 public:
     explicit Request(UMockdevIoctlClient* client);
 
-    /// Of an ioctl, as in the kernel's headers.
+    /// Returns the code of an ioctl, as in the kernel's headers.
     [[nodiscard]] unsigned long code() const;
-    /// Of an ioctl whose argument is a number.
+    /// Returns the argument of an ioctl that takes a number.
     [[nodiscard]] unsigned long number() const;
-    /// What the argument points to: of an ioctl, `size` bytes; of read() and write(), the buffer.
+    /// The memory that the argument points to: for an ioctl `size` bytes, otherwise the buffer.
     [[nodiscard]] Memory argument(std::size_t size) const;
     [[nodiscard]] Memory buffer() const;
-    /// Who asks: one for each time that the node was opened.
+    /// Returns the opener: one for each time that the node was opened.
     [[nodiscard]] const void* opener() const { return client_.get(); }
 
     void succeed(long result = 0) const;
-    /// With an error number such as ENODEV.
+    /// Fails with an error number such as ENODEV.
     void fail(int error) const;
 
 private:
     std::shared_ptr<UMockdevIoctlClient> client_;
 };
 
-/// Answers what programs ask of one device node. The functions are called from one thread of
-/// umockdev's, the same for all nodes of a testbed. Where one returns false the kernel, or what
-/// umockdev has in its place, answers.
+/// Answers the requests of programs to one device node. The functions are called from one thread of
+/// umockdev, the same for all nodes of a testbed. If one returns false, the kernel, or umockdev in
+/// its place, answers.
 class Handler {
 public:
     Handler();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The node is a terminal, of which a reader can see that something waits; but a terminal knows no
-// reports. So one byte through it is only a bell, and the reports are handed to who reads then.
+// The node is a terminal, so that a reader can see that data waits. But a terminal has no reports,
+// so one byte through it is only a bell, and the reader gets the reports on read().
 #include "tests/support/umockdev/hidraw_device.hpp"
 
 #include "proto/base/ensure.hpp"
@@ -24,7 +24,7 @@ namespace hapnet::umockdev {
 namespace {
 
 constexpr std::size_t reports_max = 64;
-constexpr int numbers_per_plug = 16; // above those of all devices at once
+constexpr int numbers_per_plug = 16; // more than the number of devices at once
 
 std::string hex_text(std::span<const std::byte> bytes)
 {
@@ -33,7 +33,7 @@ std::string hex_text(std::span<const std::byte> bytes)
     return text;
 }
 
-/// Where in sysfs the device, its interface, the HID device and its node are: parents first.
+/// The places in sysfs of the device, its interface, the HID device and its node: parents first.
 std::array<std::string, 4> paths_of(const HidDescription& hid)
 {
     const std::string usb = fmt::format("/devices/usb9/9-{}", hid.number + 1);
@@ -114,7 +114,7 @@ void HidrawDevice::unplug()
         for (const Held& held : std::exchange(held_up_, {})) held.request.fail(ENODEV);
         waiting_.clear();
         close(std::exchange(slave_, -1));
-        // Ends the terminal, and leaves the number to whoever thinks that it is open.
+        // Ends the terminal, and leaves the number to programs that think it is open.
         const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
         dup2(nothing, master_);
         close(nothing);

@@ -25,7 +25,7 @@ struct HidDescription {
     int number = 0; // of its hidraw node; each device has another
 };
 
-/// How a HID device behaves. Called from one thread at a time.
+/// The behaviour of a HID device. Called from one thread at a time.
 class HidModel {
 public:
     HidModel() = default;
@@ -36,25 +36,24 @@ public:
     // Reports begin with their ID.
     virtual void on_output(std::span<const std::byte> report) = 0;
     virtual void on_feature(std::span<const std::byte> report) = 0;
-    /// nullopt: it knows no such report.
+    /// nullopt: there is no such report.
     [[nodiscard]] virtual std::optional<std::vector<std::byte>> feature(std::uint8_t id) = 0;
 };
 
 /// A HID device in a testbed: the kernel's hidraw in front of a model. All functions may be called
-/// from any thread. One reader at a time, as all who have opened the node hear of a report here
-/// by one bell.
+/// from any thread. Only one reader at a time, because all openers of the node share one bell.
 class HidrawDevice final : private Handler {
 public:
     HidrawDevice(Testbed& testbed, HidDescription description, HidModel& model);
     ~HidrawDevice() override;
 
-    /// The device says this. Of 64 that wait unread the newest one is lost, as in the kernel.
+    /// Sends a report of the device. Of 64 unread reports the newest is lost, as in the kernel.
     void say(std::vector<std::byte> report);
-    /// It takes nothing and says nothing while this is on; who writes waits.
+    /// Makes the device silent; a writer waits.
     void stall(bool on);
-    /// It is pulled out: for all who have opened it it has gone.
+    /// Unplugs it for all programs that have opened it.
     void unplug();
-    /// ... and put in again, as another node: for who opens it anew.
+    /// Plugs it in again, as another node, for programs that reopen it.
     void plug_in();
     /// Looks at or changes the model between two of its calls.
     template <typename Action>
@@ -71,7 +70,7 @@ private:
     [[nodiscard]] bool on_read(const Request& request) override;
     [[nodiscard]] bool on_write(const Request& request) override;
 
-    /// What may have to wait.
+    /// A request that may have to wait.
     struct Held {
         Request request;
         bool is_write = false;
@@ -93,7 +92,7 @@ private:
     int slave_ = -1;
     bool stalled_ = false;
     bool has_gone_ = false;
-    std::optional<Attachment> attachment_; // last: it ends before what it uses
+    std::optional<Attachment> attachment_; // the last member, because it uses the others
 };
 
 } // namespace hapnet::umockdev

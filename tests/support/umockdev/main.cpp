@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The main() of test programs over emulated devices. umockdev stands between a program and the
-// kernel only where its library was loaded first: so the program starts itself again that way.
+// The main() of test programs with emulated devices. umockdev works only if its library is loaded
+// first, so the program restarts itself with it.
 #include <cstdio>
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -46,9 +46,9 @@ int main(int count, char** words)
 {
     if (!is_preloaded()) {
         prepend("LD_PRELOAD", preloaded, ':');
-        // AddressSanitizer wants to be the first library, which now another one is.
+        // AddressSanitizer wants to be the first library, but now umockdev is.
         prepend("ASAN_OPTIONS", "verify_asan_link_order=0", ':');
-        // ThreadSanitizer does not see how GLib, which it did not build, keeps its threads apart.
+        // ThreadSanitizer did not instrument GLib, so it does not see GLib's locks.
         prepend("TSAN_OPTIONS", "ignore_noninstrumented_modules=1", ':');
         execv("/proc/self/exe", words);
         std::perror("cannot start again under umockdev");

@@ -9,7 +9,7 @@ namespace hapnet::umockdev {
 
 Testbed::Testbed() : testbed_{umockdev_testbed_new(), [](UMockdevTestbed* t) { g_object_unref(t); }}
 {
-    // Asked only now: the answer is kept, and without a testbed it would be no.
+    // Ask only now, because umockdev keeps the answer, which is no without a testbed.
     if (umockdev_in_mock_environment() == FALSE) {
         throw std::runtime_error{"libumockdev-preload.so.0 is not loaded: is it installed?"};
     }

@@ -189,7 +189,7 @@ void UsbDevice::submit(const Request& request)
                                                   static_cast<std::size_t>(urb.buffer_length));
     }
     if (!transfer.urb || (urb.buffer_length > 0 && !transfer.buffer)) {
-        request.fail(EFAULT); // its program has gone
+        request.fail(EFAULT); // the program has ended
         return;
     }
     under_way_.push_back(std::move(transfer));
@@ -227,7 +227,7 @@ void UsbDevice::discard(const Request& request)
     request.succeed();
 }
 
-/// Until nothing more can be done now: what was said may be answered at once.
+/// Continues until nothing more can be done, because an answer may be possible at once.
 void UsbDevice::work()
 {
     if (stalled_) return;

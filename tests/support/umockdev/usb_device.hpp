@@ -16,7 +16,7 @@
 
 namespace hapnet::umockdev {
 
-/// What a host asks of a USB device's endpoint 0: USB 2.0, table 9-2.
+/// A request of a host to a USB device's endpoint 0: USB 2.0, table 9-2.
 struct UsbSetup {
     std::uint8_t type = 0;
     std::uint8_t request = 0;
@@ -25,7 +25,7 @@ struct UsbSetup {
     std::uint16_t length = 0;
 };
 
-/// How a USB device behaves; its descriptors are seen to. Called from one thread at a time.
+/// The behaviour of a USB device except its descriptors. Called from one thread at a time.
 class UsbModel {
 public:
     UsbModel() = default;
@@ -33,11 +33,11 @@ public:
     UsbModel(const UsbModel&) = delete;
     UsbModel& operator=(const UsbModel&) = delete;
 
-    /// The answer to a request, empty where it only does something; nullopt: it refuses it.
+    /// Returns the answer to a request, empty if it has none; nullopt: the device refuses it.
     [[nodiscard]] virtual std::optional<std::vector<std::byte>>
     on_control(const UsbSetup& setup, std::span<const std::byte> data) = 0;
     virtual void on_bulk_out(std::span<const std::byte> bytes) = 0;
-    /// What it has to say now, at most `size` bytes; nullopt: nothing yet, it will be asked again.
+    /// Returns the device's data, at most `size` bytes; nullopt: none yet, to be asked again.
     [[nodiscard]] virtual std::optional<std::vector<std::byte>> on_bulk_in(std::size_t size) = 0;
     /// The interface was released, or its program has ended.
     virtual void on_released() {}
@@ -50,11 +50,11 @@ public:
     UsbDevice(Testbed& testbed, UsbDescription description, UsbModel& model);
     ~UsbDevice() override;
 
-    /// It answers no transfer while this is on; those wait.
+    /// Lets all transfers wait while this is on.
     void stall(bool on);
-    /// It is pulled out: what is under way fails, and so does all that who opened it asks then.
+    /// Unplugs it: pending transfers fail, and so do all further requests of its openers.
     void unplug();
-    /// ... and put in again: for who opens it anew.
+    /// Plugs it in again, for programs that reopen it.
     void plug_in();
     /// Looks at or changes the model between two of its calls.
     template <typename Action>
@@ -66,7 +66,7 @@ public:
 
     [[nodiscard]] const UsbDescription& description() const { return usb_; }
 
-    /// Whether the kernel's own driver has hold of it; only where the description names one.
+    /// True if the kernel's own driver holds it. Only for a description that names a driver.
     [[nodiscard]] bool kernel_has_it();
 
 private:
@@ -100,11 +100,11 @@ private:
     std::mutex mutex_;
     std::deque<Transfer> under_way_; // in the order in which they came
     std::deque<Transfer> done_;
-    std::map<const void*, bool> openers_; // and whether it has gone since they opened it
+    std::map<const void*, bool> openers_; // true if it has gone since they opened it
     const void* owner_ = nullptr;         // of the interface
     bool kernel_has_it_ = false;
     bool stalled_ = false;
-    std::optional<Attachment> attachment_; // last: it ends before what it uses
+    std::optional<Attachment> attachment_; // the last member, because it uses the others
 };
 
 } // namespace hapnet::umockdev

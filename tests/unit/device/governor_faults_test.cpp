@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// When the governor stops at once, what it latches, and how an operator gets it going again.
+// The faults that stop the force at once and are latched, and how an operator restarts it.
 #include "tests/support/device/governed.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using Governance = test::Governed;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// With a hand that is pushed with 1 N and moves at 1 m/s at most.
+/// A hand that is pushed with 1 N and moves at 1 m/s at most.
 Governance pushing()
 {
     Governance governed = Governance::ramped_in({.speed_max_m_per_s = 1.0});
@@ -28,7 +28,7 @@ Governance pushing()
     return governed;
 }
 
-/// Zero at this very tick, motors off, and it stays so.
+/// Expects zero force and motors off in this very tick, and from then on.
 void expect_latched(Governance& governed, const Latched& cause)
 {
     EXPECT_EQ(governed(along_x(1.0)), base::Force{});
@@ -45,7 +45,7 @@ TEST(GovernorStates, FollowTheDevicesLife)
     governed.speaks = false;
     governed.sample.calibrated = false;
     governed.play(200, along_x(1.0));
-    EXPECT_EQ(governed.governor.state(), GovernorState::off); // for as long as it takes
+    EXPECT_EQ(governed.governor.state(), GovernorState::off); // for any length of time
     governed.speaks = true;
     governed(along_x(1.0));
     EXPECT_EQ(governed.governor.state(), GovernorState::calibrating);
@@ -102,7 +102,7 @@ TEST(GovernorLatches, ATimeoutWhenADeviceRepeatsItselfForAHundredMilliseconds)
     governed.play(99, along_x(1.0));
     expect_latched(governed, {Fault::timeout, Trip::silence});
     governed.speaks = true;
-    EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{}); // it does not go on by itself
+    EXPECT_EQ(governed.play(3000, along_x(1.0)), base::Force{}); // it does not restart by itself
     EXPECT_EQ(governed.governor.counters().faults.silence, 1U);
 }
 
@@ -305,7 +305,7 @@ TEST(GovernorRecovers, WhenTheStylusWasPutIntoItsHolderWhileTheDeviceWasStillAtF
     Governance governed = pushing();
     governed.sample.fault = Fault::not_calibrated;
     governed.play(100, along_x(1.0));
-    governed.sample.docked = true; // what this fault asks for
+    governed.sample.docked = true; // as this fault requires
     governed.play(50, along_x(1.0));
     governed.sample.fault = Fault::none;
     governed.play(51, along_x(1.0));
@@ -331,7 +331,7 @@ TEST(GovernorRecovers, NotByAStylusThatLayInItsHolderAllTheTime)
     EXPECT_EQ(governed.governor.state(), GovernorState::ready);
 }
 
-/// Presses the button for so long, and releases it.
+/// Presses the button for `ticks` ticks, and releases it.
 void press(Governance& governed, int ticks)
 {
     governed.sample.buttons = 1;

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using test::along_x;
 using test::Governed;
 
-constexpr double tiny = 1e-12; // N: what roundings may come to
+constexpr double tiny = 1e-12; // N: the largest effect of rounding
 
 GovernorLimits omni_limits()
 {
@@ -67,7 +67,7 @@ TEST(GovernorRules, CutWhatLeadsOutWhereAHandIsSuddenlyFarOutside)
     Governed governed = Governed::ramped_in(limits_for({.force_max_n = 3.3}, {}));
     EXPECT_NEAR(governed.play(5, along_x(3.0)).x(), 3.0, tiny);
     governed.sample.hip = {{0.2, 0.0, 0.0}};
-    EXPECT_EQ(governed(along_x(3.0)), base::Force{}); // whatever the slew
+    EXPECT_EQ(governed(along_x(3.0)), base::Force{}); // without a slew
 }
 
 /// An arm of 0.1 m and 0.2 m whose third joint moves nothing here.
@@ -88,7 +88,7 @@ TEST(GovernorRules, ScaleAForceToWhatTheWeakestJointBears)
     Governed governed = Governed::ramped_in(limits);
     EXPECT_EQ(governed.play(5, {{0.4, 0.2, 0.3}}), (base::Force{{0.4, 0.2, 0.3}}));
     EXPECT_EQ(governed.governor.counters().joint_limited, 0U);
-    // 0.4 N at 0.2 m are 0.08 Nm: five eighths are left of all of it.
+    // 0.4 N at 0.2 m are 0.08 Nm: all of the force is scaled to five eighths.
     const base::Force force = governed.play(5, {{0.4, 0.4, 0.8}});
     EXPECT_NEAR(force.x(), 0.25, tiny);
     EXPECT_NEAR(force.y(), 0.25, tiny);

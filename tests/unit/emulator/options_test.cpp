@@ -15,8 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 using namespace base::literals;
 
-/// What is said to these options of a run; "" where they are taken, as far as can be told without
-/// a network.
+/// The refusal of these options of a run; "" where they are accepted, as far as can be checked
+/// without a network.
 std::string refusal(std::vector<std::string> words)
 {
     words.insert(words.begin(), {"--listen-a", "127.0.0.1:0", "--listen-b", "127.0.0.1:0"});
@@ -105,7 +105,7 @@ TEST(EmulatorOptions, NameASpaceInAValue)
 
 TEST(EmulatorOptions, ProposeOnlyLawsThatCanBeTyped)
 {
-    // Those that name a file need it to be there.
+    // Laws that name a file need the file.
     for (const std::string law :
          {"random", "k-of-n", "every", "burst", "timed-burst", "gilbert", "gilbert-elliott",
           "gemodel", "timed-gilbert-elliott", "four-state", "list", "pattern", "outage"}) {

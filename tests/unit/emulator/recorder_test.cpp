@@ -29,7 +29,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A folder of its own that goes with the test.
+/// A folder for each test, removed with it.
 class RecorderFiles : public testing::Test {
 protected:
     RecorderFiles() { std::filesystem::create_directory(folder_); }
@@ -150,7 +150,7 @@ Blocks blocks_of(const std::string& capture)
     return blocks;
 }
 
-/// All that comes from a pipe until its writers have closed it.
+/// Reads a pipe until its writers have closed it.
 std::string text_until_closed(int pipe)
 {
     std::string text;
@@ -224,7 +224,7 @@ TEST_F(RecorderFiles, HoldNothingUnlessToldTo)
 
 TEST_F(RecorderFiles, LackExactlyWhatWasCountedAsLost)
 {
-    // A pipe that is not read stops the writer, as a disk that is too slow does.
+    // A pipe without a reader stops the writer, like a disk that is too slow.
     ASSERT_EQ(mkfifo(path("capture.pcapng").c_str(), 0600), 0);
     const disk::Descriptor reader{open(path("capture.pcapng").c_str(), O_RDONLY | O_NONBLOCK)};
     const std::vector<std::byte> payload(65'507);

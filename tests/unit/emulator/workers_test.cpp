@@ -23,8 +23,7 @@ void wait_until(const auto& condition)
     while (!condition()) std::this_thread::yield();
 }
 
-/// A part that is due all the time, and counts its rounds in a number that no lock of its own
-/// guards.
+/// A part that is always due, and counts its rounds in a number without a lock of its own.
 Workers::Part counting(long& rounds)
 {
     return {.descriptors = {},

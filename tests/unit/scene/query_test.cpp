@@ -29,7 +29,7 @@ void run(World& world, int ticks)
     for (int i = 0; i < ticks; ++i) world.tick();
 }
 
-/// Cubes on each other on the platform, which fall asleep.
+/// Stacked cubes on the platform, which fall asleep.
 Description tower(std::size_t cubes)
 {
     Description scene = paper_scene();
@@ -44,7 +44,7 @@ Description tower(std::size_t cubes)
     return scene;
 }
 
-/// The paper's scene, but the cube may move along all axes: the plane carries it.
+/// The paper's scene, but the cube may move along all axes: the plane supports it.
 Description cube_on_plane()
 {
     Description scene = paper_scene();
@@ -169,7 +169,7 @@ TEST(Contacts, ALandingGivesTheMomentumThatItStopsAndThenTheWeight)
         if (contacts(world, found) > 0) given += found[0].normal_impulse;
     }
     EXPECT_EQ(world.velocity(0).y(), 0.0);
-    EXPECT_NEAR(given, ticks * weight * tick_s, 1e-15); // momentum began and ended at zero
+    EXPECT_NEAR(given, ticks * weight * tick_s, 1e-15); // no momentum at start and end
 }
 
 TEST(Contacts, WhatAPushAddsIsCarried)

@@ -72,7 +72,7 @@ Description on_floor(Floor floor, double friction)
     return scene;
 }
 
-/// Where a body that slides over a floor is after half a second.
+/// Returns the place after half a second of a body that slides over a floor.
 glm::dvec3 slid(Floor floor, BodyDescription body, double friction)
 {
     Description scene = on_floor(floor, friction);
@@ -100,7 +100,7 @@ TEST(Everyday, AFloorOfTilesIsOneSlabForWhatSlidesAndRolls)
             EXPECT_LE(miss(round), 1e-9) << friction;
             EXPECT_LE(miss(locked), 1e-9) << friction;
             EXPECT_LE(miss(beside), 1e-6) << friction;
-            // What four tiles bear is solved to a millionth of the weight in each tick.
+            // The load of four tiles is solved to a millionth of the weight in each tick.
             EXPECT_LE(miss(cube), 1e-5) << friction;
         }
     }
@@ -131,7 +131,7 @@ TEST(Everyday, AHandFeelsNoSeamHoweverDeepItPresses)
 TEST(Everyday, AStepBetweenTilesStillStopsWhatSlides)
 {
     Description scene = on_floor(Floor::tiles, 0.0);
-    scene.bodies[4].position.value.y += 0.002; // those from x = 0.12 m on
+    scene.bodies[4].position.value.y += 0.002; // the tiles from x = 0.12 m on
     scene.bodies[5].position.value.y += 0.002;
     BodyDescription cube = box(glm::dvec3{0.02}, {0.0, 0.02, 0.0});
     cube.velocity.value = {0.3, 0.0, 0.0};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What a session relies on of the paper's scene: how its cube moves, and what a hand feels of it.
+// The paper's scene, as sessions need it: the motion of its cube, and the force on a hand.
 #include "scene/world.hpp"
 
 #include <cmath>
@@ -24,7 +24,7 @@ World unlocked_world()
     return World::freeze(scene).value();
 }
 
-/// A millisecond of a steady force each.
+/// Plays ticks of a millisecond with a constant force.
 void push(World& world, const glm::dvec3& force, int ticks)
 {
     for (int i = 0; i < ticks; ++i) {
@@ -221,7 +221,7 @@ TEST(PaperHand, FeelsNothingInTheAir)
 {
     World world = paper_world();
     for (const HandInput& hand : {hand_at(-0.030), hand_at({0.0, -0.022, -0.1}), away}) {
-        const HandTouch& touched = feel(world, hand); // not even of the platform
+        const HandTouch& touched = feel(world, hand); // not the platform either
         EXPECT_FALSE(touched.touching);
         EXPECT_EQ(touched.on_body, base::Force{});
         EXPECT_EQ(touched.on_hand, base::Force{});

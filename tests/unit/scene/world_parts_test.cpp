@@ -58,7 +58,7 @@ TEST(Compounds, ABoxInTwoPiecesHasItsCentreAndItsMoments)
 
 TEST(Compounds, AnAngleHasTheMassOfTheFormulas)
 {
-    // Of two rods of squares: by areas.
+    // Two rods with square sections: computed by areas.
     constexpr double along = 0.08, up = 0.05, thick = 0.02;
     const BodyDescription body = angle(along, up, thick);
     const double lying = along * thick, rising = (up - thick) * thick;
@@ -156,7 +156,7 @@ TEST(Compounds, AnAngleThatStandsOnItsLegStaysWhereItIs)
     EXPECT_NEAR(separation(world, base::Position{{0.04, -0.01, 0.0}}, 0).distance, 0.01, 1e-7);
 }
 
-/// A post with an arm at its top that reaches so far.
+/// A post with an arm of length `reach` at its top.
 BodyDescription gallows(double reach)
 {
     BodyDescription body = cube_at({0.0, 0.05, 0.0});
@@ -257,7 +257,7 @@ TEST(Compounds, WhatFliesThroughAForkTouchesNothing)
         EXPECT_EQ(world.velocity(1).value, ball.velocity.value);
         EXPECT_EQ(world.velocity(0).value, glm::dvec3{0.0});
         EXPECT_GT(world.position(1).z(), 0.1);
-        // And what flies at a prong is stopped by it.
+        // A body that flies at a prong is stopped by it.
         scene.bodies[1].position.value.x = 0.04;
         World hit = world_of(scene);
         run(hit, speed > 10.0 ? 4 : 250);
@@ -331,7 +331,7 @@ TEST(Compounds, AHandThatHoldsTheHandleTurnsTheHammer)
         EXPECT_EQ(world.touch(0).body, 0U);
         hand.position.value += 1e-3 * hand.velocity.value;
     }
-    EXPECT_GT(world.body(0).angular_velocity.z, 0.01); // the head is left behind
+    EXPECT_GT(world.body(0).angular_velocity.z, 0.01); // the head lags behind
     EXPECT_GT(world.position(0).x(), from.x);
 }
 
@@ -342,7 +342,7 @@ TEST(Compounds, QuestionsSeeTheParts)
     scene.bodies.push_back(cube_at({0.06, 0.04, 0.0}));
     World world = world_of(scene);
     run(world, 300);
-    // Past the upright leg, over the lying one, and into the cube on it.
+    // Over the upright leg and the lying one, into the cube on it.
     const auto over = cast_ray(world, {.origin = {{0.03, 0.045, -1.0}}, .direction = {0, 0, 1}});
     EXPECT_FALSE(over);
     const auto leg = cast_ray(world, {.origin = {{0.01, 0.045, -1.0}}, .direction = {0, 0, 1}});

@@ -28,7 +28,7 @@ Description cube_in_space()
     return scene;
 }
 
-/// Likewise; what the scene has besides, far away, makes it need that stepper.
+/// The same cube, with a distant part of the scene that needs this stepper.
 Description cube_for(StepperKind kind)
 {
     Description scene = cube_in_space();
@@ -42,7 +42,7 @@ Description cube_for(StepperKind kind)
 
 double inertia_of_cube() { return box_inertia(0.1, glm::dvec3{0.02}).x; }
 
-/// How far a body is turned about z, radians, up to half a turn.
+/// Returns the rotation of a body about z, radians, up to half a turn.
 double angle_about_z(const World& world)
 {
     const glm::dquat q = world.body(0).orientation;
@@ -156,7 +156,7 @@ TEST(Push, ATorqueTurnsACubeExactlyWhileAHandPressesItsMiddle)
     constexpr double torque = 1e-5;
     constexpr int ticks = 100;
     for (int i = 0; i < ticks; ++i) {
-        // About the hand's own normal: its spring has no moment.
+        // About the hand's normal its spring has no moment.
         const double behind = world.position(0).z() - 0.0245;
         ASSERT_FALSE(world.set_hand(0, {.position = {{0.0, 0.0, behind}}, .velocity = {}}));
         ASSERT_FALSE(world.push_torque(0, {0.0, 0.0, torque}));
@@ -281,7 +281,7 @@ TEST(Push, RefusesWhatIsNotFiniteOutOfRangeOrOfNoBodyAndStaysAsItWas)
     EXPECT_EQ(world.push(1, {}, {}), Refusal::no_such_body);
     EXPECT_EQ(world.push_torque(1, {}), Refusal::no_such_body);
     EXPECT_EQ(world.apply_impulse(1, {}, {}), Refusal::no_such_body);
-    // Beyond what a body may be made to do: no force either.
+    // Beyond the limit of motion: no force is applied either.
     EXPECT_EQ(world.push(0, {{1e5, 0.0, 0.0}}, {{0.0, 100.0, 0.0}}), Refusal::out_of_range);
     EXPECT_EQ(world.apply_impulse(0, {1e4, 0.0, 0.0}, {}), Refusal::out_of_range); // 1e5 m/s
     // 9e3 m/s, but some 1e10 rad/s.

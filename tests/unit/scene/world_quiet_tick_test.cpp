@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What a tick must not do besides computing: take memory or ask the system for anything.
+// A tick only computes: it takes no memory and makes no system call.
 #include "proto/base/math.hpp"
 #include "scene/text/text.hpp"
 #include "scene/world.hpp"
@@ -28,7 +28,7 @@ World world_named(const char* name)
     return World::freeze(built_in ? *built_in : test::bench_scene(name)).value();
 }
 
-/// Hands that come, push, squeeze, grip and leave, a body that is put elsewhere, and a push.
+/// Hands that come, push, squeeze, grip and leave, a body that is moved elsewhere, and a push.
 void play(World& world, int ticks)
 {
     for (int i = 0; i < ticks; ++i) {
@@ -61,8 +61,8 @@ TEST_P(QuietTick, TakesNoMemoryAlsoInACopyAndAfterARestore)
 }
 
 #ifndef HAPNET_SANITIZED // a sanitizer asks the system for memory of its own
-/// How a process ends that does `work` and is killed for any system call but read, write and
-/// exit: its wait status; nullopt where such a cage cannot be had.
+/// Runs `work` in a process that is killed for any system call but read, write and exit. Returns
+/// its wait status; nullopt where such a cage cannot be had.
 template <typename Work>
 std::optional<int> caged(Work work)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Spheres and capsules in descriptions, under hands, and asked about.
+// Spheres and capsules in descriptions, under hands, and in queries.
 #include "proto/base/math.hpp"
 #include "scene/query.hpp"
 #include "scene/requirements.hpp"
@@ -21,7 +21,7 @@ BodyDescription ball_at(const glm::dvec3& place)
     return ball;
 }
 
-/// Along z.
+/// A capsule along z.
 BodyDescription capsule_at(const glm::dvec3& place)
 {
     BodyDescription capsule{.name = "capsule", .shape = Shape::capsule, .position = {place}};
@@ -36,7 +36,7 @@ TEST(RoundBodies, HaveTheInertiaOfTheFormulas)
     EXPECT_EQ(inertia_of(body).x, inertia_of(body).z);
     EXPECT_NEAR(mass_of(body, 1000.0), 1000.0 * 2.0 / 3.0 * base::two_pi * half * half * half,
                 1e-15);
-    // A capsule's by a sum over thin slices across it.
+    // For a capsule the moment is a sum over thin slices across it.
     body = capsule_at({0.0, 0.0, 0.0});
     constexpr int slices = 200'000;
     double volume = 0.0, along = 0.0, across = 0.0;
@@ -157,7 +157,7 @@ TEST(RoundBodies, GainNothingFromHandsThatPushThemAside)
     scene.hands.damping_ns_per_m = 0.0;
     World world = world_of(scene);
     const double before = energy(world);
-    // Hands that stand: what they give they had stored when they came.
+    // For resting hands, the work given equals the energy stored at their arrival.
     const double depth = 0.003;
     const double most = before + 2.0 * 0.5 * scene.hands.stiffness_n_per_m * depth * depth;
     const double away = half + scene.hands.radius_m - depth;
@@ -199,7 +199,7 @@ TEST(RoundBodies, FallAsleepAndWake)
     auto world = World::freeze(scene, {}).value();
     run(world, 150);
     EXPECT_FALSE(world.is_awake(0));
-    run(world, 100); // the other one falls on it
+    run(world, 100); // the other body falls onto it
     EXPECT_NE(world.position(0).value, scene.bodies[0].position.value);
 }
 

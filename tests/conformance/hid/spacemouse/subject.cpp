@@ -17,7 +17,7 @@ using hid_double::bytes_of;
 constexpr base::Duration report_every{std::chrono::milliseconds{8}};
 constexpr int deflection = 100;
 
-/// A cap that somebody pushes to the right and back again, every tenth of a second.
+/// A cap that a person pushes to the right and back, every tenth of a second.
 class FakeSpaceMouse final : public umockdev::HidModel {
 public:
     void on_output(std::span<const std::byte> /*report*/) override {}
@@ -28,7 +28,7 @@ public:
 /// A fake SpaceMouse under unmodified hidapi.
 class SpaceMouseSubject final : public Subject {
 public:
-    // Silence is its rest: it cannot be told from a stall, and moves nothing.
+    // The device is silent at rest, so a stall cannot be told from rest, and moves nothing.
     [[nodiscard]] Traits traits() const override { return {.has_motors = false, .stalls = false}; }
     [[nodiscard]] device::Opened<std::unique_ptr<device::Device>> open() override
     {
@@ -90,7 +90,7 @@ TEST(SpaceMouse, MovesWhereItsCapIsPushed)
         subject.pass(std::chrono::milliseconds{1});
         sample = device->read(subject.now());
     }
-    // 79 ms at 100/350 of 0.1 m/s: the first of them hears of the push.
+    // 79 ms at 100/350 of 0.1 m/s. The first millisecond only receives the push.
     EXPECT_NEAR(sample.hip.x(), 0.079 * 0.1 * 100 / 350, 1e-9);
 }
 

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 const base::Position inkwell = device::omni::position_of(device::omni::inkwell_pose);
 constexpr base::Duration for_ever = 10000h;
 
-/// What the simulated motors are told, noted: the torques that they get.
+/// A device that records the torques given to its simulated motors.
 class NotedJoints final : public device::Device {
 public:
     explicit NotedJoints(std::vector<Command>& commands)

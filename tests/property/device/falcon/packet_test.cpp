@@ -64,7 +64,7 @@ TEST(FalconPacketFinder, FindsEveryPacketThatCameWhole)
     }
     EXPECT_EQ(found, whole);
     EXPECT_GT(whole, 10'000U);
-    // All the other bytes were none's, but for those of a packet that may be under way at the end.
+    // All other bytes belong to no packet, except those of an incomplete packet at the end.
     EXPECT_LT(fed - found * packet_bytes - finder.skipped(), packet_bytes);
 }
 

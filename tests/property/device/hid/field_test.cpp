@@ -12,7 +12,7 @@
 namespace hapnet::device::hid {
 namespace {
 
-/// One draw after the other.
+/// Draws one value after the other.
 class Draws {
 public:
     explicit Draws(std::string_view name) : stream_{base::Seed{42}.stream(name)} {}
@@ -29,7 +29,7 @@ private:
     std::uint64_t index_ = 0;
 };
 
-/// A field anywhere in 16 bytes, of any length and with any range that has room in it.
+/// A field anywhere in 16 bytes, of any length and any range that fits.
 Field any_field(Draws& draws)
 {
     Field field;
@@ -94,7 +94,7 @@ TEST(Field, ScalesSharesToWholeValuesAroundZeroAndLimitsThem)
     Draws draws{"shares"};
     for (int i = 0; i < 10000; ++i) {
         const double share = 2.0 * draws.uniform() - 1.0;
-        // Half a step, as it rounds.
+        // Within half a step, due to rounding.
         ASSERT_NEAR(static_cast<double>(scaled(field, share)) / 32767, share, 0.5 / 32767 + 1e-12);
     }
 }

@@ -55,7 +55,7 @@ TEST(OmniGeometry, UsesThoseAnglesOfTheWorkspaceThatWereWorkedOutByHand)
         least = glm::min(least, angles);
         most = glm::max(most, angles);
     });
-    // To the two decimals to which they are stated.
+    // To the two decimals of the data sheet.
     EXPECT_NEAR(least.x, -0.54, 0.005);
     EXPECT_NEAR(most.x, 0.54, 0.005);
     EXPECT_NEAR(least.y, 0.14, 0.005);
@@ -115,7 +115,7 @@ TEST(OmniGeometry, MovesTheStylusByTheDataSheetsResolutionWithACount)
         // One count of the shoulder or of the forearm moves it by the nominal 0.055 mm everywhere.
         ASSERT_NEAR(glm::length(j[1]), 0.05586, 1e-5);
         ASSERT_NEAR(glm::length(j[2]), 0.05586, 1e-5);
-        // The waist moves it across what the other two do; they are at an angle to each other.
+        // The waist moves it at right angles to the other two, which are at an angle to each other.
         ASSERT_NEAR(glm::dot(j[0], j[1]), 0.0, 1e-15);
         ASSERT_NEAR(glm::dot(j[0], j[2]), 0.0, 1e-15);
         const double between = glm::abs(glm::dot(j[1], j[2])) / (0.05586 * 0.05586);
@@ -138,7 +138,7 @@ TEST(OmniGeometry, NeedsNoMoreTorqueThanStatedForItsPeakForce)
             most[joint] = std::max(most[joint], force_max_n * glm::length(j[joint]));
         }
     });
-    EXPECT_NEAR(most.x, 0.72, 0.005); // at the far corners: more than the motor has
+    EXPECT_NEAR(most.x, 0.72, 0.005); // at the far corners, beyond the motor's limit
     EXPECT_LE(most.y, torque_max_nm.y * (1.0 + 1e-12));
     EXPECT_LE(most.z, torque_max_nm.z * (1.0 + 1e-12));
 }

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 
 const base::Position inkwell = omni::position_of(omni::inkwell_pose);
 
-/// One that a hand holds still at a place.
+/// A plant that a hand holds still at a place.
 JointPlant held_at(const base::Position& place, const JointPlantFigures& figures = {})
 {
     JointPlant plant{figures};
@@ -72,9 +72,9 @@ TEST(JointPlant, DoesNotBudgeForLessThanItsFriction)
     JointPlant plant = held_at({});
     const glm::dvec3 before = plant.joints().angles;
     plant.set_torque(0.9 * plant.figures().friction_nm - plant.torque());
-    plant.set_grip(Grip{plant.tip(), {}, {}}); // its own pull gone
+    plant.set_grip(Grip{plant.tip(), {}, {}}); // no pull of its own
     plant.advance(2s);
-    // The rounds in which the joints' friction is worked out leave some nanometres a second.
+    // The iterations for the joints' friction leave some nanometres per second.
     EXPECT_LT(glm::length(plant.joints().angles - before), 1e-7);
     plant.set_torque(1.5 * plant.figures().friction_nm);
     plant.advance(2s);
@@ -138,7 +138,7 @@ TEST(JointPlant, IsStableInTheStiffestAndTheLightestHand)
         JointPlant plant;
         plant.set_grip(Grip{{}, {}, hand});
         plant.advance(4s);
-        // What friction may leave at the end, in the worst direction: 0.4 N.
+        // Friction may leave this error, in the worst direction: 0.4 N.
         EXPECT_LT(base::norm(plant.tip() - base::Position{}), 0.4 / hand.stiffness_n_per_m);
         EXPECT_LT(base::norm(plant.tip_velocity()), 1e-8); // see DoesNotBudge...
     }

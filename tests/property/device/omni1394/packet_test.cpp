@@ -47,7 +47,7 @@ TEST(OmniSerial, HasElevenDigitsWhateverTheRegisterHolds)
         const auto quadlet = static_cast<std::uint32_t>(chance.bits(i));
         const std::string serial = serial_of(quadlet);
         ASSERT_EQ(serial.size(), 11U);
-        // The bits around the five fields say nothing.
+        // The bits around the five fields have no meaning.
         ASSERT_EQ(serial_of(quadlet ^ 0xfc000001U), serial);
         ASSERT_NE(serial_of(quadlet ^ 0x00000002U), serial);
     }

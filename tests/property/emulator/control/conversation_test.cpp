@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Whatever a client sends, and however it is cut into pieces.
+// Conversations with any text from a client, cut into pieces in any way.
 #include "proto/control/core/conversation.hpp"
 
 #include "proto/base/random.hpp"
@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 const base::TimePoint start{100s};
 
-/// Numbers in turn from a stream.
+/// Draws numbers in turn from a stream.
 class Dice {
 public:
     explicit Dice(std::uint64_t seed) : stream_{base::Seed{seed}.stream("dice")} {}
@@ -37,7 +37,7 @@ private:
     std::uint64_t index_ = 0;
 };
 
-/// Most are requests, right or nearly so.
+/// Draws a line: mostly a request that is valid or nearly valid.
 std::string random_line(Dice& dice)
 {
     constexpr std::array requests{

@@ -42,7 +42,7 @@ TEST(Link, AllocatesNothingOnceItIsMade)
     EXPECT_GT(before, 0U); // the counter is in place
     for (int i = 0; i < 100'000; ++i) {
         const auto now = start + i * 100us;
-        if (i == 50'000) link.share(shared, now); // as a ramp does, again and again
+        if (i == 50'000) link.share(shared, now); // repeatedly, as a ramp does
         link.on_packet(std::span{bytes}.first(static_cast<std::size_t>(i) % bytes.size()), now);
         while (const auto departure = link.poll(now)) link.on_sent(*departure, now);
     }

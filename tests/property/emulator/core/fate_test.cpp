@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// That no stage, no law and no direction disturbs the draws of another.
+// No stage, law or direction disturbs the draws of another.
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/pipeline.hpp"
 
@@ -35,7 +35,7 @@ std::vector<Fate> fates(const Conditions& conditions, const Draw& draw)
 
 bool is_lost(const Fate& fate) { return fate.drop.has_value(); }
 
-/// Everything at once.
+/// Conditions with every stage.
 Conditions crowded()
 {
     return {.mtu = {1400},

@@ -25,7 +25,7 @@ void expect_identity(const Statistics& s)
     ASSERT_EQ(s.received + s.duplicated, s.delivered + s.dropped_total() + s.in_flight);
 }
 
-/// Everything about one run, drawn from its seed.
+/// The settings of one run, drawn from its seed.
 struct Scenario {
     explicit Scenario(std::uint64_t value) : seed{value}, chance{seed.stream("scenario")} {}
 
@@ -91,8 +91,8 @@ void check_departure(const Datagram& departure, const Conditions& conditions, ba
     }
 }
 
-/// Runs one scenario and checks every invariant at every step. In its midst the conditions change
-/// to those of another.
+/// Runs one scenario and checks every invariant at every step. Halfway the conditions change to
+/// those of another scenario.
 void run_scenario(const Scenario& scenario, const Scenario& other)
 {
     Conditions conditions = scenario.conditions();

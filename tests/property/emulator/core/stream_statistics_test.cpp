@@ -57,7 +57,7 @@ double sd_of(const std::vector<double>& values)
     return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
-/// Within the bins of the histogram.
+/// Expects quantiles within the bins of the histogram.
 void expect_quantiles(const std::optional<base::Quantiles>& quantiles, std::vector<double> values)
 {
     ASSERT_TRUE(quantiles);
@@ -139,7 +139,7 @@ void expect_order(const StreamReport& report, const std::vector<Passage>& log)
               *std::max_element(extents.begin(), extents.end()));
 }
 
-/// From the definition: the age at t is t minus the newest arrival among what departed before t.
+/// By definition, the age at t is t minus the newest arrival of datagrams sent before t.
 void expect_age(const StreamReport& report, const std::vector<Passage>& log)
 {
     double area = 0;

@@ -31,8 +31,8 @@ Variation correlated(base::Duration half_width, base::Duration time)
     return {UniformLaw{{}, half_width}, time};
 }
 
-/// What independent and correlated jitter become at 1000 packets/s under each policy. Computed
-/// apart from this code, in Python, over 400 000 packets; the correlated rows have few independent
+/// The effect of independent and correlated jitter at 1000 packets/s under each policy. Computed
+/// apart from this code, in Python, over 400 000 packets. The correlated rows have few independent
 /// draws (400 000 ms / 2 x 100 ms = 2000), hence the tolerance of each.
 TEST(Predict, TheTableOfJitterAndOrderAtAThousandPacketsASecond)
 {

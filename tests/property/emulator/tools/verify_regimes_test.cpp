@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The tests of regimes pass where a run does what it should, and fail where it differs by a little.
+// The tests of regimes pass for a correct run, and fail for a run that differs by a little.
 #include "emulator/tools/verify/regimes.hpp"
 
 #include "emulator/core/pipeline.hpp"
@@ -67,7 +67,7 @@ std::vector<std::string> failed(const std::vector<TestResult>& results)
     return names;
 }
 
-/// The figures of a soak, which shows lines that begin with two spaces.
+/// Prints the figures of a soak, which shows lines that begin with two spaces.
 void print(const std::vector<TestResult>& results, std::uint64_t seed)
 {
     for (const TestResult& result : results) {

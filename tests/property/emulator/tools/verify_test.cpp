@@ -30,7 +30,7 @@ constexpr std::uint64_t count = 200'000;
 
 base::RandomStream stream(std::uint64_t seed = 1) { return base::Seed{seed}.stream("planted"); }
 
-/// What each test says of a run under a law that it does not follow.
+/// The outcome of each test for a run under a law that it does not follow.
 std::map<std::string, Outcome> outcomes(const LossLaw& claimed, const LossRecord& observed)
 {
     std::map<std::string, Outcome> result;
@@ -81,7 +81,7 @@ TEST(Verify, PassesARunWhoseFirstDatagramsHadNoDestinationYet)
     for (const TestResult& result : verify_direction(claim, Direction::up, fates)) {
         EXPECT_NE(result.outcome, Outcome::failed) << result.name << ": " << result.sentence;
     }
-    fates[7000] = without_destination(Fate{}); // one that the law had to lose, or not
+    fates[7000] = without_destination(Fate{}); // a datagram that the law may have lost, or not
     fates[7001] = Fate{.drop = DropCause::random_loss};
     fates[7002] = Fate{};
     fates[7003] = Fate{.drop = DropCause::random_loss};

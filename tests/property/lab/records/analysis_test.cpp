@@ -14,8 +14,8 @@
 namespace hapnet::lab::records {
 namespace {
 
-/// A record as nobody would leave it behind, but as a file may hold it: times, forces and
-/// sequences are whatever bits come, only the session is one that the other record has too.
+/// A record with arbitrary contents: times, forces and sequences are random bits. Only the session
+/// is one that the other record has, too.
 record::Record wild_record(int peer_id, const base::RandomStream& stream, std::uint64_t round)
 {
     record::Record wild;

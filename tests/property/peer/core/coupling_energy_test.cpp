@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What docs/design/algorithms.md says of the energy of base-tdpa, wave, couple, lag and rollback,
-// over random networks, hands and numbers of peers.
+// The energy bounds in docs/design/algorithms.md of base-tdpa, wave, couple, lag and rollback, over
+// random networks, hands and numbers of peers.
 #include "peer/core/peer.hpp"
 #include "tests/support/seeds.hpp"
 #include "tests/support/session/energy_play.hpp"
@@ -16,9 +16,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr base::Duration length = 12s;
-constexpr double in_a_copy_j = 0.015; // in its contacts and in the motion of the cube
+constexpr double in_a_copy_j = 0.015; // in its contacts and its cube's motion
 
-/// With no hand looser than what the contacts are softened for.
+/// Replaces hands that are looser than those for which contacts are softened.
 EnergyCase with_assumed_grips(EnergyCase one)
 {
     for (auto& player : one.setting.players) {
@@ -69,7 +69,7 @@ TEST_P(CouplingEnergy, OfSupervisedCopiesStaysAboveWhatTheyStoreAndWasNotHeard)
 INSTANTIATE_TEST_SUITE_P(Seed, CouplingEnergy, testing::Range(std::uint64_t{0}, seeds(12)));
 INSTANTIATE_TEST_SUITE_P(All, CouplingEnergy, testing::Range(seeds(12), std::uint64_t{32}));
 
-// No bound is proved of these two: it is what they kept of it.
+// No bound is proved for these two algorithms. The values are those observed.
 
 std::vector<std::uint64_t> seeds_of(const char* name, std::uint64_t begin, std::uint64_t end,
                                     bool (*is_wanted)(const EnergyCase&))
@@ -82,7 +82,7 @@ std::vector<std::uint64_t> seeds_of(const char* name, std::uint64_t begin, std::
     return wanted;
 }
 
-/// More than three take minutes.
+/// More than three peers take minutes.
 bool has_few(const EnergyCase& one) { return one.setting.players.size() <= (is_sanitized ? 2 : 3); }
 
 class RollbackEnergy : public CouplingEnergy {};
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Seed, RollbackEnergy,
 INSTANTIATE_TEST_SUITE_P(All, RollbackEnergy,
                          testing::ValuesIn(seeds_of("rollback", seeds(4), 8, has_few)));
 
-/// What lag draws in taps stands in a test below.
+/// Taps, in which lag draws energy, have a test of their own below.
 bool has_no_taps(const EnergyCase& one) { return one.setting.task != device::Task::t6; }
 
 class LagEnergy : public CouplingEnergy {};

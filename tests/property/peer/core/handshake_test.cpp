@@ -26,15 +26,15 @@ Path path_of(base::Seed seed)
 void expect_agreement(Meeting& meeting, std::uint64_t seed)
 {
     ASSERT_TRUE(meeting.agree()) << "seed " << seed;
-    // Half of what the two ways can differ by.
+    // Half of the largest difference of the two ways.
     ASSERT_LE(meeting.start_error(), 50ms + 1ns) << "seed " << seed;
     meeting.hellos = {};
     meeting.run_for(2s);
     ASSERT_EQ(meeting.hellos, (std::array<int, 2>{0, 0})) << "seed " << seed;
 }
 
-// At 90 % loss each of the five lucky hellos takes 0.2 s on average; that all have not come after
-// 20 s has a probability below 1e-30. The states settle the rest.
+// At 90 % loss each of the five hellos needed takes 0.2 s on average. The probability that they
+// take more than 20 s is below 1e-30. The states do the rest.
 TEST(Handshake, EndsInAgreementUnderLossReorderingAndDuplication)
 {
     for (std::uint64_t seed = 0; seed < test::seeds(100); ++seed) {

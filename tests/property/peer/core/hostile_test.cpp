@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The other side says whatever it likes: this hand must not feel it.
+// Whatever the other side sends, this hand must not be harmed.
 #include "device/governor.hpp"
 #include "proto/base/random.hpp"
 #include "tests/property/proto/wire/random_message.hpp"
@@ -15,7 +15,7 @@ std::vector<std::byte> nonsense(const base::RandomStream& stream, std::uint64_t 
 {
     wire::Message message = wire::RandomMessage{stream, round}.message();
     const auto kind = stream.below(4, round, 1000);
-    if (kind != 0) { // a state of this very session, well-formed, with wild contents
+    if (kind != 0) { // a well-formed state of this session, with wild contents
         wire::State state = genuine;
         state.sequence += 1000 + static_cast<std::uint32_t>(round);
         state.touching = stream.below(2, round, 1001) == 0;
@@ -73,7 +73,7 @@ TEST(HostileRemote, NeverMakesAForceThatIsNotFiniteOrExceedsThePeak)
 
 TEST(HostileRemote, DoesNotStopAPeerThatIsStillWaiting)
 {
-    // All but hellos and goodbyes that refuse: those are meant to end it.
+    // All but hellos and goodbyes with a refusal, which are meant to end the session.
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         const auto stream = base::Seed{seed}.stream("waiting");
         Peer peer{settings_of(0)};

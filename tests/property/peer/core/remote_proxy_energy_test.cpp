@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What docs/design/remote-proxy.md says of the energy of remote-proxy, over random networks, hands,
+// The energy bound in docs/design/remote-proxy.md of remote-proxy, over random networks, hands,
 // numbers of peers and liars.
 #include "scene/text/text.hpp"
 #include "tests/support/seeds.hpp"
@@ -37,8 +37,8 @@ TEST_P(RemoteProxyEnergy, OfAllHandsTogetherStaysAboveItsBound)
 INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(16)));
 INSTANTIATE_TEST_SUITE_P(All, RemoteProxyEnergy, testing::Range(seeds(16), std::uint64_t{48}));
 
-/// Those networks and hands, with a cube that turns: each of two copies or more can keep as much
-/// more as the cube stands on a corner.
+/// The same networks and hands with a cube that turns. Each of two copies or more can store as much
+/// more as the cube gains on a corner.
 class TurningCubeEnergy : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(TurningCubeEnergy, OfAllHandsTogetherStaysAboveItsBound)
@@ -69,7 +69,7 @@ TEST(TurningCubeEnergy, IsTheSameToTheBitWhenMessagesComeTwiceAndLate)
     EXPECT_EQ(play_for_energy(one).hash, play_for_energy(one, Delivery::twice_and_late).hash);
 }
 
-/// A liar whose victim believes every word: it takes the intention for sure and projects nothing.
+/// A liar whose victim takes the intention as certain and projects nothing.
 EnergyCase believed_liar(double account_j)
 {
     peer::RemoteProxyOptions options{.account_j = account_j};

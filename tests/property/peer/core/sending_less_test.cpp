@@ -20,9 +20,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr base::Duration length = 15s;
-constexpr std::uint64_t first_seed = 5000; // whose cases no other test plays
+constexpr std::uint64_t first_seed = 5000; // no other test plays these cases
 
-/// With HAPNET_SENDING_SEEDS so many sessions.
+/// Returns HAPNET_SENDING_SEEDS if it is set, else `usual`.
 std::uint64_t asked_seeds(std::uint64_t usual)
 {
     const char* const asked = std::getenv("HAPNET_SENDING_SEEDS");
@@ -46,7 +46,7 @@ base::Duration silence_of(const peer::SendPolicy& policy)
     return policy.deadband ? policy.silence_max : policy.every * base::Duration{1ms};
 }
 
-/// The longest gap that a network makes, in messages; longer ones occur once in e^9 messages.
+/// The longest gap that a network makes, in messages. A longer gap occurs once in e^9 messages.
 double gap_of(const emulator::Conditions& network)
 {
     if (network.loss.empty()) return 0.0;
@@ -57,7 +57,7 @@ double gap_of(const emulator::Conditions& network)
 
 struct Case {
     EnergyCase energy;
-    bool is_heard = true; // no gap is so long that the others count as silent
+    bool is_heard = true; // no gap is so long that a peer counts as silent
 };
 
 Case drawn_case(std::uint64_t seed)
@@ -69,7 +69,7 @@ Case drawn_case(std::uint64_t seed)
         player.send = policy;
         if (plays_out) player.playout = peer::Playout::adaptive;
     }
-    // A buffer makes no state older than the slowest one, but for a tick.
+    // A buffer delays no state beyond the slowest one, except for a tick.
     if (plays_out) one.energy.age_max += 1ms;
     const double gap = gap_of(one.energy.setting.profile.path.up);
     const double longer_s = base::to_seconds(silence_of(policy)) - 1e-3; // than a tick

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What docs/design/algorithms.md says of lag and rollback: how far a tick of the session is the
-// same in all copies, whenever each of them plays it.
+// The statements in docs/design/algorithms.md on lag and rollback: how far a tick of the session is
+// the same in all copies, whenever each copy plays it.
 #include "lab/virtual_time/world.hpp"
 #include "scene/text/text.hpp"
 #include "tests/sim/peer/core/score.hpp"
@@ -24,8 +24,8 @@ using lab::virtual_time::VirtualWorld;
 
 constexpr base::Duration length = 10s;
 
-/// Two to five with delays of their own between any two of them, to `delay_max`, and jitter that
-/// lets messages overtake.
+/// Two to five peers with individual delays between them, up to `delay_max`, and with jitter that
+/// reorders messages.
 Setting drawn(std::uint64_t seed, const char* algorithm, base::Duration delay_max,
               base::Duration jitter_max)
 {
@@ -62,10 +62,10 @@ using Course = std::map<std::uint64_t, base::Position>;
 
 struct Played {
     std::vector<Course> courses{};
-    double way_m = 0.0; // that the body went
+    double way_m = 0.0; // path length of the body
 };
 
-/// `note` is given what a side has after each tick, and enters it into its course.
+/// `note` gets the state of a side after each tick, and adds it to the side's course.
 template <typename Note>
 Played played(const Setting& setting, const Note& note)
 {
@@ -85,8 +85,8 @@ Played played(const Setting& setting, const Note& note)
     return found;
 }
 
-/// The largest distance of two copies at the same tick of the session, and at how many ticks there
-/// were two to compare.
+/// The largest distance of two copies at the same tick of the session, and the number of ticks that
+/// two copies had.
 struct Apart {
     double most_m = 0.0;
     std::size_t compared = 0;
@@ -113,7 +113,7 @@ std::string words(const Setting& setting)
                        setting.seed.value());
 }
 
-/// Of the body in a session: what is pressed from both sides stays about where it is.
+/// The least path of the body in a session. A body pressed from both sides hardly moves.
 double least_way_m(device::Task task) { return task == device::Task::t2 ? 0.005 : 0.3; }
 
 class SessionTime : public testing::TestWithParam<std::uint64_t> {};
@@ -127,7 +127,7 @@ TEST_P(SessionTime, OfThePastIsTheSameToTheBitInAllCopiesThatRollBackWhereNoMess
     });
     const Apart found = apart(all.courses);
     EXPECT_GT(all.way_m, least_way_m(setting.task)) << words(setting);
-    EXPECT_GT(found.compared, 50U) << words(setting); // jitter moves it on by many ticks at once
+    EXPECT_GT(found.compared, 50U) << words(setting); // jitter skips many ticks at once
     EXPECT_EQ(found.most_m, 0.0) << words(setting);
 }
 
@@ -172,7 +172,7 @@ class RepeatedMessages : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(RepeatedMessages, LeaveEveryBitOfTheSessionAsItIs)
 {
     for (const char* name : {"lag", "rollback"}) {
-        const auto length = test::is_sanitized ? 3s : 8s; // a minute there
+        const auto length = test::is_sanitized ? 3s : 8s; // this takes a minute under sanitizers
         const EnergyCase one =
             drawn_energy_case(GetParam(), peer::algorithm_named(name).value(), length);
         const EnergyPlayed once = play_for_energy(one);
@@ -182,7 +182,7 @@ TEST_P(RepeatedMessages, LeaveEveryBitOfTheSessionAsItIs)
     }
 }
 
-// Of three and of four peers.
+// For three and for four peers.
 INSTANTIATE_TEST_SUITE_P(Seed, RepeatedMessages, testing::Values(1U));
 INSTANTIATE_TEST_SUITE_P(All, RepeatedMessages, testing::Values(6U));
 

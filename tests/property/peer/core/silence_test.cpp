@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Whatever was lost: once all hands are off and the network is good again, the copies are one.
+// Whatever was lost, the copies agree once all hands are off and the network is good again.
 #include "lab/experiment/claims.hpp"
 #include "tests/support/seeds.hpp"
 #include "tests/support/session/energy_play.hpp"
@@ -19,7 +19,7 @@ protected:
     {
         return drawn_energy_case(GetParam(), peer::algorithm_named(name).value(), 9s);
     }
-    /// `of_many`: after so long, of more than two.
+    /// `of_many`: the wait for more than two peers.
     static double apart_mm(const EnergyCase& one, base::Duration of_many = 1s)
     {
         const base::Duration after = one.setting.players.size() == 2 ? 1s : of_many;
@@ -34,7 +34,7 @@ TEST_P(Silence, OfASecondBringsProxiesCopiesTogether)
     EXPECT_LE(apart_mm(drawn("remote-proxy")), 0.1) << GetParam();
 }
 
-// These wait as long as a message between two others may be on its way.
+// These algorithms wait as long as a message between two other peers may take.
 
 TEST_P(Silence, OfASecondBringsTwoCopiesThatLagTogetherAndOfTwoMore)
 {
@@ -51,7 +51,7 @@ protected:
     }
 
 public:
-    /// More than four take minutes.
+    /// More than four peers take minutes.
     static std::vector<std::uint64_t> seeds_of_few(std::uint64_t begin, std::uint64_t end)
     {
         std::vector<std::uint64_t> wanted;

@@ -36,7 +36,7 @@ TEST(Histogram, QuantilesAreWithinOneSixtyFourthOfTheSortedOnesAndWithinTheirRan
             ASSERT_LE(std::abs(told - exact), exact / 64) << seed << " " << share;
             ASSERT_GE(told, sorted.front()) << seed << " " << share;
             ASSERT_LE(told, sorted.back()) << seed << " " << share;
-            // As many are longer as the ranks say whose quantile is.
+            // The count above a quantile agrees with the quantile's rank.
             const auto above = histogram.count_above(Duration{told});
             ASSERT_LE(above, size - rank) << seed << " " << share;
         }

@@ -13,8 +13,8 @@
 namespace hapnet::base {
 namespace {
 
-// Every test here has fixed seeds: it passes always or never. The bounds say how surprising the
-// draws of a truly random source would have to be to exceed them.
+// Every test here has fixed seeds: it passes always or never. Each bound states the probability
+// that a truly random source exceeds it.
 
 constexpr std::uint64_t draws = 1 << 16;
 

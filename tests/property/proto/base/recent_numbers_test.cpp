@@ -20,7 +20,7 @@ TEST(RecentNumbers, AgreeWithASetThatForgetsNothing)
         const RandomStream draw = Seed{seed}.stream("numbers");
         RecentNumbers<looks_back> recent;
         std::set<std::uint64_t> seen;
-        // From 0, where no number lies below, or up to the last number that there is.
+        // Starts at 0, below which there is no number, or goes up to the largest number.
         const bool is_last = seed % 2 == 0;
         std::uint64_t at = is_last ? std::numeric_limits<std::uint64_t>::max() - 50'000 : 0;
         for (std::uint64_t i = 0; i < 500; ++i) {
@@ -41,7 +41,7 @@ TEST(RecentNumbers, AgreeWithASetThatForgetsNothing)
             ASSERT_EQ(recent.highest(), *seen.rbegin());
         }
     }
-    EXPECT_GT(std::ranges::min(found), 1000U); // all three were tried
+    EXPECT_GT(std::ranges::min(found), 1000U); // all three answers occurred
 }
 
 } // namespace

@@ -15,7 +15,7 @@ TEST(Text, EveryPrintedDurationReadsBackAsItself)
 {
     const RandomStream stream = Seed{1}.stream("durations");
     for (std::uint64_t i = 0; i < cases; ++i) {
-        // Magnitudes from 1 ns to 10^6 s alike; every other one a round number of a unit.
+        // All magnitudes from 1 ns to 10^6 s are equally likely; every second number is round.
         auto count = static_cast<Duration::rep>(std::pow(10.0, 15.0 * stream.uniform(i)));
         if (i % 2 == 0) count -= count % (i % 4 == 0 ? 1'000 : 1'000'000);
         const Duration duration{count};

@@ -56,7 +56,7 @@ public:
     {
         for (glm::length_t i = 0; i < 4; ++i) value[i] = finite_bits();
     }
-    // Any finite double; not the rest, which equals nothing and could not be compared.
+    // Any finite double. Others equal nothing, so they could not be compared.
     void operator()(std::string_view, auto& vector)
     {
         for (glm::length_t i = 0; i < 3; ++i) vector.value[i] = finite_bits();
@@ -69,7 +69,7 @@ private:
         const auto value = std::bit_cast<double>(bits());
         return std::isfinite(value) ? value : 0.0;
     }
-    // As far as a row may go: 2^60 ns either way.
+    // Within the range of a row: 2^60 ns either way.
     std::int64_t signed_bits() { return static_cast<std::int64_t>(bits()) >> 3; }
 
     base::RandomStream stream_;

@@ -47,7 +47,7 @@ TEST(WireMessages, OfMutatedBytesAreRefusedOrAreTheOnesThatThoseBytesMean)
         ++accepted;
         ASSERT_EQ(bytes_of(*message), bytes) << "round " << round;
     }
-    EXPECT_GT(accepted, rounds / 4); // the property has been put to the test
+    EXPECT_GT(accepted, rounds / 4); // the property was tested on many messages
     EXPECT_LT(accepted, rounds);
 }
 

@@ -93,7 +93,7 @@ private:
     }
 
     [[nodiscard]] float size() { return static_cast<float>(below(1000)) / 8.0F; }
-    /// What an intention is said in.
+    /// An intention in the steps of its encoding.
     [[nodiscard]] glm::dvec3 steps()
     {
         const auto one = [this] { return static_cast<double>(below(0xffff)) - 0x7fff; };

@@ -12,12 +12,12 @@ namespace hapnet::scene {
 namespace {
 
 constexpr std::uint64_t pairs = 200;
-// What the choice of features may cost, in smallest half edges: see collide().
+// The cost of the choice of features, in smallest half edges: see collide().
 constexpr double slack = 1.0 / 128.0;
 constexpr double flush = 1.0 / 256.0;
 constexpr double rounding = 1e-9;
-// What counts as on a border is moved onto it along both edges, in a plane that leans 55 degrees at
-// most: by the square root of 6 times the tolerance.
+// Points within the tolerance of a border are moved onto it along both edges, in a plane that leans
+// at most 55 degrees: by the square root of 6 times the tolerance.
 constexpr double on_border = 2.45 * flush;
 
 constexpr std::array<double, 5> size_ratios{1.0, 1.0, 0.1, 10.0, 1000.0};
@@ -26,7 +26,7 @@ struct Case {
     BoxPair pair;
     double unit = 0.0; // the smallest half edge
     double margin = 0.0;
-    BoxBoxMemory memory; // of another tick: none, or any axis
+    BoxBoxMemory memory; // from another tick: none, or any axis
 };
 
 Case draw(std::string_view stream, std::uint64_t seed)
@@ -39,7 +39,7 @@ Case draw(std::string_view stream, std::uint64_t seed)
             BoxBoxMemory{.axis = drawn.one_in(2) ? std::int8_t{-1} : axis}};
 }
 
-/// How far a point is outside a box; < 0: inside.
+/// The distance of a point from a box; < 0: inside.
 double outside(const OrientedBox& box, const glm::dvec3& point)
 {
     double most = -HUGE_VAL;
@@ -63,7 +63,7 @@ TEST(BoxBox, TouchExactlyWhenNoneOfFifteenAxesSeparatesThem)
         const auto& [a, b] = drawn.pair;
         const auto truth = static_cast<double>(Exhaustive::separation(a, b)) / drawn.unit;
         const Manifold manifold = collide(a, b, drawn.margin, drawn.memory);
-        // Between 0 and the margin a gap may be to the side of the faces, where nothing is met.
+        // A gap between 0 and the margin may be beside the faces, where no contact is reported.
         if (truth < -rounding) {
             ASSERT_GT(manifold.count, 0U) << seed << ' ' << truth;
         }
@@ -136,7 +136,7 @@ TEST(BoxBox, TouchLikewiseWhenTheyAreExchanged)
         const double tolerance = 2.0 * flush * drawn.unit;
         for (const ContactPoint& point : here.touching()) {
             const ContactPoint* same = found(there, swapped_feature_pair(point.feature));
-            if (same == nullptr) continue; // where several points are as good
+            if (same == nullptr) continue; // where several points are equally good
             ASSERT_NEAR(point.separation, same->separation, tolerance) << seed;
             ASSERT_LE(glm::distance(point.position, same->position), tolerance) << seed;
         }

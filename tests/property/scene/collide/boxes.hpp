@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// A plain second opinion in long double: no memory, no shortcuts, every axis.
+/// A simple reference in long double: no memory, no shortcuts, every axis.
 struct Exhaustive {
     using Vector = std::array<long double, 3>;
 
@@ -35,7 +35,7 @@ struct Exhaustive {
         return sum;
     }
 
-    /// How far the boxes are apart along a direction.
+    /// The separation of the boxes along a direction.
     static long double along(const OrientedBox& a, const OrientedBox& b, const Vector& direction)
     {
         const Vector offset{static_cast<long double>(b.centre.x) - a.centre.x,

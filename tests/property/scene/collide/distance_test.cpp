@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Distances and rays of random boxes against what proves them right: a pair of points is nearest
-// when the boxes lie on two sides of a gap that is as wide.
+// Distances and rays of random boxes against a proof: a pair of points is nearest if the boxes lie
+// on two sides of a gap of that width.
 #include "proto/base/random.hpp"
 #include "scene/collide/distance.hpp"
 #include "scene/collide/sphere_box.hpp"
@@ -32,7 +32,7 @@ OrientedBox random_box(test::Dice& dice, double reach)
     return box;
 }
 
-/// How far two boxes are apart along a direction; < 0: they overlap along it.
+/// The separation of two boxes along a direction; < 0: they overlap along it.
 double gap_along(const OrientedBox& a, const OrientedBox& b, const glm::dvec3& direction)
 {
     return glm::dot(direction, a.centre - b.centre) - half_projection(a, direction) -
@@ -84,7 +84,7 @@ TEST(DistanceOfBoxes, ThatOverlapIsTheShortestWayOut)
         ++overlapping;
         EXPECT_NEAR(gap_along(a, b, found.direction), found.distance, 1e-14);
         EXPECT_TRUE(is_in(a, found.on_first)) << i;
-        OrientedBox moved = a; // out by that way: they touch
+        OrientedBox moved = a; // moved out by that vector, the boxes touch
         moved.centre -= found.distance * found.direction;
         EXPECT_NEAR(separation(moved, b).distance, 0.0, 1e-14);
         for (int other = 0; other < 200; ++other) {
@@ -128,7 +128,7 @@ TEST(ARay, EntersWhereItIsFirstInTheBoxAndMissesWhatItIsNeverIn)
         const auto found = enter(box, origin, direction, length_max);
         const double until = found ? found->distance : length_max;
         constexpr int samples = 100;
-        for (int k = 0; k < samples; ++k) { // before it enters it is outside
+        for (int k = 0; k < samples; ++k) { // outside before the ray enters
             const double at = until * k / samples;
             if (found && found->distance == 0.0) break;
             ASSERT_GE(separation(origin + at * direction, box).distance, -1e-13) << i;

@@ -24,14 +24,14 @@ glm::dvec3 vector_within(const base::RandomStream& chance, std::uint64_t& draw, 
     return {x, y, between(chance, draw, -size, size)};
 }
 
-/// Slow, fast and very fast, as 1 mm/s is to 1000 m/s.
+/// A slow, fast or very fast speed, with the ratios of 1 mm/s to 1000 m/s.
 double some_speed(const base::RandomStream& chance, std::uint64_t& draw)
 {
     constexpr std::array<double, 6> speeds{1e-3, 0.1, 1.0, 10.0, 100.0, 1000.0};
     return speeds[chance.below(speeds.size(), draw++)];
 }
 
-/// SweptBoxes of very different sizes, turned anyhow, some fixed, in a room of 40 cm.
+/// Bodies of very different sizes, in any orientation, some fixed, in a room of 40 cm.
 Description random_scene(const base::RandomStream& chance, std::uint64_t& draw)
 {
     Description description;
@@ -57,7 +57,7 @@ Description random_scene(const base::RandomStream& chance, std::uint64_t& draw)
     return description;
 }
 
-/// The upright box in which a body is in this tick, nearby_margin included.
+/// The axis-aligned box of a body's sweep in this tick, with nearby_margin.
 Aabb swept(const Bodies& bodies, Slot slot)
 {
     const glm::dvec3 half = bodies.properties[slot].half;
@@ -76,7 +76,7 @@ void turn(Bodies& bodies, Slot slot)
     bodies.orientation.put(slot, base::normalized(q + rate * (0.5 * tick_s)));
 }
 
-/// What outside influences do: hits, places, falling asleep and waking.
+/// Outside influences: hits, new places, falling asleep and waking.
 template <BroadPhase broad_phase>
 void disturb(Crowd<broad_phase>& crowd, const base::RandomStream& chance, std::uint64_t& draw)
 {
@@ -117,7 +117,7 @@ void expect_all_found(Crowd<broad_phase>& crowd)
     ASSERT_EQ(found, pairs.size());
 }
 
-/// The lowest corner of a swept box is below a plane.
+/// True if the lowest corner of a swept box is below a plane.
 template <BroadPhase broad_phase>
 void expect_planes_found(Crowd<broad_phase>& crowd)
 {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Spheres and capsules, against each other and against boxes. A distance is right when the shadows
-// along its direction are that far apart, and along no other direction farther.
+// Spheres and capsules, against each other and against boxes. A distance is right if the
+// projections onto its direction are that far apart, and onto no other direction farther.
 #include "proto/base/random.hpp"
 #include "scene/collide/box_box.hpp"
 #include "scene/collide/distance.hpp"
@@ -108,7 +108,7 @@ TEST(RoundManifold, HasTheNearestPlaceAndNoneThatIsFartherThanTheMargin)
         const Manifold manifold = collide(two.a, two.b, margin, memory);
         ASSERT_EQ(manifold.count == 0, found.distance > margin) << i;
         if (manifold.count == 0) continue;
-        // What lies along a face but for a degree is pushed along the face's normal.
+        // A body that is parallel to a face within a degree is pushed along the face's normal.
         constexpr double along_sine = 1.0 / 64.0;
         const double most = manifold.count == 2 ? along_sine : 1e-12;
         ASSERT_LT(length(manifold.normal + found.direction), most) << i;
@@ -117,13 +117,13 @@ TEST(RoundManifold, HasTheNearestPlaceAndNoneThatIsFartherThanTheMargin)
             least = std::min(least, point.separation);
             ASSERT_GE(point.separation, found.distance - 1e-12) << i;
             if (point.separation > found.distance + 1e-12 || found.distance < 0.0) continue;
-            // Midway between the two surfaces.
+            // The point is midway between the two surfaces.
             const double to_a = separation(point.position, two.a).distance;
             const double to_b = separation(point.position, two.b).distance;
             ASSERT_NEAR(to_a, 0.5 * point.separation, 1e-9) << i;
             ASSERT_NEAR(to_b, 0.5 * point.separation, 1e-9) << i;
         }
-        // The ends of what is parallel but for a degree: between them it may be a little nearer.
+        // These are the ends of a nearly parallel body. Between them it may be a little nearer.
         ASSERT_NEAR(least, found.distance, manifold.count == 2 ? 1e-3 : 1e-12) << i;
         if (manifold.count == 2) ++pairs;
         const Manifold back = collide(two.b, two.a, margin, memory);

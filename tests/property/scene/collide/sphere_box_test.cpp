@@ -39,7 +39,7 @@ TEST(SphereBox, OverlapsFromOutsideExactlyByTheRadiusLessTheDistance)
     }
 }
 
-// Over edges and corners, and where the centre goes in, nothing jumps.
+// The depth is continuous over edges and corners, and where the centre enters.
 TEST(SphereBox, ChangesItsDepthNoFasterThanTheSphereMovesOutside)
 {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -62,7 +62,7 @@ TEST(SphereBox, ChangesItsDepthNoFasterThanTheSphereMovesOutside)
             if (is_outside && was_outside) {
                 ASSERT_LE(std::abs(now - last), 1e-4 + 1e-15);
             }
-            // Over an edge or a corner the way in is through a face all the same.
+            // Also over an edge or a corner the centre enters through one face.
             if (!is_outside && was_outside) {
                 ASSERT_LE(std::abs(now - radius), 2e-4) << seed;
             }

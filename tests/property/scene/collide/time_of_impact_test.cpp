@@ -18,7 +18,7 @@ struct Flight {
 
     [[nodiscard]] OrientedBox b_at(long double time) const
     {
-        // Rounded once to double: that is the finest that can be told apart.
+        // Rounded to double, which is the finest resolution of the answer.
         OrientedBox box = b;
         for (const int k : {0, 1, 2})
             box.centre[k] = static_cast<double>(b.centre[k] + time * velocity[k]);
@@ -31,7 +31,7 @@ struct Flight {
     }
 };
 
-/// Aimed at somewhere near the other; a second away at most.
+/// Flies at a point near the other body, a second away at most.
 Flight draw(std::uint64_t seed)
 {
     BoxesDrawn drawn{base::Seed{seed}.stream("flight")};
@@ -43,7 +43,7 @@ Flight draw(std::uint64_t seed)
     return flight;
 }
 
-/// When the separation becomes negative, between a time when it is not and one when it is.
+/// Finds the time at which the separation becomes negative, between two given times.
 long double bisected(const Flight& flight, long double apart, long double overlapping)
 {
     for (int k = 0; k < 60; ++k) {
@@ -67,7 +67,7 @@ TEST(FirstTouch, IsWhereBisectionFindsIt)
         ASSERT_NEAR(impact->time, time, 1e-12 * time) << seed;
         ASSERT_LT(glm::dot(impact->normal, flight.velocity), 0.0) << seed;
         ASSERT_NEAR(glm::dot(impact->normal, impact->normal), 1.0, 1e-12) << seed;
-        // At that moment the normal is the axis along which nothing is left between them.
+        // At that moment no gap is left along the normal.
         const auto gap = static_cast<double>(Exhaustive::along(flight.a, flight.b_at(impact->time),
                                                                Exhaustive::vector(impact->normal)));
         ASSERT_NEAR(gap, 0.0, 1e-11) << seed;

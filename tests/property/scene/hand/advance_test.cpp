@@ -16,7 +16,7 @@ using testing::distance;
 using testing::Hand;
 using testing::Rig;
 
-/// Numbers that a property may need.
+/// Draws numbers for a property.
 class Draw {
 public:
     explicit Draw(std::uint64_t seed) : stream_{base::Seed{seed}.stream("hip")} {}
@@ -36,7 +36,7 @@ private:
     std::uint64_t index_ = 0;
 };
 
-/// A box with up to four hands about it, anywhere, at any stiffness that is allowed.
+/// A box with up to four hands around it, anywhere, with any allowed stiffness.
 Rig random_rig(Draw& draw)
 {
     Rig rig;
@@ -121,7 +121,7 @@ TEST(AdvanceProperty, HandsAtRestWithDampersNeverAddEnergy)
     }
 }
 
-/// Up to eight hands, some of which hold, and now and then drag; however stiff and fast.
+/// Up to eight hands, some of which hold, of any stiffness and speed. Some bodies have drag.
 struct HostileRig {
     explicit HostileRig(Draw& draw) : rig{random_rig(draw)}
     {
@@ -159,7 +159,7 @@ struct HostileRig {
     std::vector<HandSpring> springs;
 };
 
-/// What the inertia of the start leaves open of a box that turns: see SceneLaws.
+/// The uncertain energy of a rotating box with the inertia of the start: see SceneLaws.
 double vague_energy(const HostileRig& hostile, const MovingBody& before, const MovingBody& after)
 {
     if (hostile.dynamics.rotates_uniformly) return 0.0;
@@ -181,7 +181,7 @@ double vague_energy(const HostileRig& hostile, const MovingBody& before, const M
     return vague;
 }
 
-/// Of the fastest corner, at the start or at the end.
+/// Speed of the fastest corner, at the start or at the end.
 double fastest_corner(const HostileRig& hostile, const MovingBody& before, const MovingBody& after)
 {
     const auto size = [](const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); };

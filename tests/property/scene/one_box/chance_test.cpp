@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Anything at all that a description and hands may do: it stays finite and outside of things.
+// Any valid description and hands: states stay finite, and the box outside of obstacles.
 #include "proto/base/random.hpp"
 #include "tests/unit/scene/one_box/rig.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Random plays of one box that does not turn, under the laws: few of all random plays are that.
+// Random plays of one box that does not turn, under the laws. Such plays are rare.
 #include "tests/support/scene/scene_laws.hpp"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace hapnet::test {
 namespace {
 
-/// The play with its first body as the one that moves, which does not turn, and all else parallel.
+/// Returns the play with only its first body movable, without rotation, and all else parallel.
 RandomPlay with_one_box(RandomPlay play)
 {
     for (scene::BodyDescription& body : play.description.bodies) {
@@ -59,15 +59,15 @@ TEST(OneBoxLaws, HoldInRandomPlays)
 
 TEST(OneBoxLaws, HoldWhereTheyWereBroken)
 {
-    // Most by slanted springs that held too long: 80 kJ from rest (7008905), 9.6 N s of 0.84
+    // Plays in which slanted springs held for too long: 80 kJ from rest (7008905), 9.6 N s of 0.84
     // (7014407), 1429 times the greatest force (7032638), 4.7 times (55074).
     constexpr std::array<std::uint64_t, 25> drawn{
         4480,    7433,    14984,   22970,   25226,   33593,   36736,   41982,   51807,
         55074,   55860,   7005680, 7007349, 7008905, 7011014, 7013871, 7014407, 7014900,
         7018836, 7025801, 7032638, 7039109, 7045163, 7057827, 20088227};
     for (const std::uint64_t seed : drawn) expect_lawful(random_play(seed), seed);
-    // Made of plays with one box: dampers that jumped at an impact; bounces put out of things;
-    // hands that hold with all they have, next to elastic walls; hands of 1e7 N against each other.
+    // Plays changed to one box: dampers that jumped at an impact; bounces that started inside
+    // obstacles; hands at full force next to elastic walls; hands of 1e7 N against each other.
     constexpr std::array<std::uint64_t, 15> made{1226,  1874,  17228,   18933,   6461,
                                                  22167, 75828, 77577,   137436,  205030,
                                                  11633, 17491, 9153009, 1113357, 1162492};

@@ -9,7 +9,7 @@
 
 namespace hapnet::scene {
 
-/// The same physics by other means: one axis, Runge and Kutta's fourth order in small steps, and
+/// The same physics by another method: one axis, Runge and Kutta's fourth order in small steps, and
 /// bisection of a step in which anything changes its mode.
 class Reference {
 public:
@@ -53,8 +53,8 @@ public:
     }
 
 private:
-    /// Of each hand 0 apart, 1 slack, 2 active, 3 limited; then the direction of the friction (2:
-    /// it holds), and whether it is in the wall.
+    /// For each hand: 0 apart, 1 slack, 2 active, 3 limited. Then the direction of the friction (2:
+    /// it holds), and whether the box is in the wall.
     using Modes = std::vector<int>;
 
     [[nodiscard]] double depth(const Hand& hand, double at_x, double t) const

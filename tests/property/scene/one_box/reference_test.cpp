@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Scenes by chance along one axis, against an integration in steps a hundred times as small.
+// Random scenes along one axis, against an integration in steps a hundred times as small.
 #include "proto/base/random.hpp"
 #include "tests/property/scene/one_box/reference.hpp"
 #include "tests/unit/scene/one_box/rig.hpp"

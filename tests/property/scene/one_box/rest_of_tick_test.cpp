@@ -90,7 +90,7 @@ public:
             sum += 0.5 * hands_.stiffness_n_per_m * dot(each.stretch, each.stretch);
         return sum;
     }
-    /// The work of the hands' motion so far. A hand comes closer by `closing`.
+    /// The work of the hands' motion so far. A hand approaches by `closing`.
     double work_of_hands()
     {
         double sum = 0.0;
@@ -133,7 +133,7 @@ private:
     double tick_ = 0.0;
     double mass_ = 0.0;
     TickRoom room_;
-    std::vector<AxisOscillators> oscillators_; // one of each: made once all else is known
+    std::vector<AxisOscillators> oscillators_; // made once all other members are known
     std::vector<Obstacles> obstacles_;
     std::vector<BoxMotion> box_;
 };

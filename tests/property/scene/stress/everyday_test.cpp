@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Random scenes of everyday kinds, over two thousand ticks each, by a judge with formulas of its
-// own: `scripts/soak.sh scene` plays thousands.
+// Random scenes of everyday kinds, over two thousand ticks each, checked by independent formulas:
+// `scripts/soak.sh scene` plays thousands.
 #include "tests/support/scene/everyday.hpp"
 
 #include <gtest/gtest.h>

@@ -18,10 +18,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// One that comes meets a body at rest; one that meets it has half of the speed.
+/// An approaching wall meets a resting body. A wall that meets a flying body has half its speed.
 enum class Wall : std::uint8_t { fixed, movable, plane, comes, meets };
 
-/// The share of the speed that a wall moves with by itself.
+/// The wall's share of the speed.
 double own_share(Wall wall)
 {
     if (wall == Wall::comes) return 1.0;
@@ -50,8 +50,8 @@ std::ostream& operator<<(std::ostream& out, const Throw& thrown)
                thrown.material.friction, thrown.spins);
 }
 
-/// A wall in the plane x = 0 and, before it, a body that flies at it turned at random. So wide that
-/// nothing gets around it.
+/// A wall in the plane x = 0, and a body in a random orientation that flies at it. The wall is so
+/// wide that the body cannot pass beside it.
 Description scene_of(const Throw& thrown, std::uint64_t seed)
 {
     test::Dice dice{base::Seed{seed}.stream("throw")};
@@ -97,7 +97,7 @@ Description scene_of(const Throw& thrown, std::uint64_t seed)
     return scene;
 }
 
-/// Whether the body's centre was ever behind the middle of the wall.
+/// True if the body's centre was ever behind the middle of the wall.
 bool passes(const Throw& thrown, std::uint64_t seed, Interventions& interventions)
 {
     World world =
@@ -114,7 +114,7 @@ bool passes(const Throw& thrown, std::uint64_t seed, Interventions& intervention
     return passed;
 }
 
-/// Throws it in so many orientations, with and without bounce, friction and spin.
+/// Throws it in `orientations` orientations, with and without bounce, friction and spin.
 void throw_all(Throw thrown, std::uint64_t orientations, Interventions& interventions)
 {
     for (const double restitution : {0.0, 0.5, 1.0}) {
@@ -131,7 +131,7 @@ void throw_all(Throw thrown, std::uint64_t orientations, Interventions& interven
     }
 }
 
-/// The bodies go on after their first touch, and none loses its way: that is for what never ends.
+/// Bodies continue after their first touch, and none is stopped early, which is for endless cases.
 void expect_no_guard(const Interventions& interventions)
 {
     EXPECT_GT(interventions.sweeps_continued, 0U);
@@ -177,7 +177,7 @@ TEST_P(FastCube, IsPassedByNoWallThatMovesByItself)
     expect_no_guard(interventions);
 }
 
-/// Seen from the wall a body has no more energy than it came with.
+/// In the frame of the wall a body has no more energy than at the start.
 TEST_P(FastCube, GainsNoEnergyOverAWallThatMovesByItself)
 {
     for (const double restitution : {0.0, 0.5, 1.0}) {
@@ -239,7 +239,7 @@ TEST_P(FastRoundBody, PassesNoWallAndNoPlane)
         for (const auto tick : {250us, 4000us})
             throw_all({.half = half, .speed = GetParam(), .tick = tick, .shape = shape}, 8,
                       interventions);
-        // A ball's contact is where it first touches, and no turn takes it any farther.
+        // A ball's contact point is where it first touches, and rotation does not move it further.
         EXPECT_EQ(interventions.sweeps_continued > 0U, shape == Shape::capsule);
         EXPECT_EQ(interventions.guards(), 0U);
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What a world keeps from tick to tick to be fast does not show in what it does.
+// Data that a world keeps between ticks for speed must not change its results.
 #include "proto/base/math.hpp"
 #include "tests/support/scene/dice.hpp"
 #include "tests/support/scene/random_play.hpp"
@@ -154,7 +154,7 @@ TEST(KeptContacts, ATickInWhichEverythingGoesOnHasTheBitsOfOneThatBeginsFromNoth
         all += steady_ticks(*world);
         EXPECT_EQ(steady_ticks(copied), 0U);
     }
-    EXPECT_GT(all, 24U * ticks / 16); // a tenth and more goes on so
+    EXPECT_GT(all, 24U * ticks / 16); // at least a tenth continue in this way
 }
 
 } // namespace

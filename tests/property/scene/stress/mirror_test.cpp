@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Left and right are alike: bits are where the closed forms are, and where nothing turns.
+// Mirrored scenes play alike: to the bit where closed forms apply, and where nothing rotates.
 #include "tests/support/scene/random_play.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using scene::BodyId;
 using scene::StepperKind;
 using scene::World;
 
-/// How far the mirrored world is from the mirrored state of the world at any tick, in metres.
+/// The largest difference of the mirrored world from the world's mirrored state, in metres.
 double apart(World& world, World& reflected, const RandomPlay& play, const RandomPlay& mirror)
 {
     double most = 0.0;
@@ -49,8 +49,8 @@ TEST(Mirror, WhatFliesAndSlidesIsMirroredToTheBitAndMostOfTheRestToRounding)
         ++others;
         if (off <= 1e-9 * play.description.bodies[0].half.x) ++alike;
     }
-    // Rounding decides which of two equal faces carries: then the futures part. Measured over 2000
-    // scenes of up to 40 bodies: 0.88 are within 1e-9 of the size to the end, 0.95 within 1e-3.
+    // Rounding decides which of two equal faces carries, and then the plays diverge. Measured over
+    // 2000 scenes of up to 40 bodies: 0.88 end within 1e-9 of the size, 0.95 within 1e-3.
     EXPECT_GE(alike, others * 3 / 4);
 }
 

@@ -21,7 +21,7 @@ using scene::World;
 constexpr double half = 0.02; // of every cube here
 constexpr double gone = 1e-4; // of that: overlaps below it count as resolved
 
-/// Of an overlap 30 % goes in a tick, and at most a tenth of the half edge.
+/// 30 % of an overlap is removed in a tick, but at most a tenth of the half edge.
 int ticks_for(double overlap)
 {
     int ticks = 0;
@@ -65,7 +65,7 @@ Description overlapping(double share, int width, int height)
     return scene;
 }
 
-/// How many ticks it takes until nothing overlaps by more than so many half edges.
+/// Returns the number of ticks until no overlap exceeds `least` half edges.
 int ticks_until(World& world, double least, int most)
 {
     for (int tick = 0; tick < most; ++tick) {
@@ -89,8 +89,8 @@ TEST_P(Overlaps, OfAStackOnTheFloorGoByTheFormula)
     }
 }
 
-/// A heap has more contacts than a tick has visits for: it takes longer, and weight that presses
-/// its bodies together leaves a little.
+/// A heap has more contacts than a tick has visits for. It takes longer, and weight that presses
+/// bodies together leaves a little.
 TEST_P(Overlaps, OfAHeapAreBelowOnePercentWithinAHundredAndFiftyTicks)
 {
     constexpr double small = 0.01;
@@ -107,7 +107,7 @@ TEST_P(Overlaps, OfAHeapAreBelowOnePercentWithinAHundredAndFiftyTicks)
             EXPECT_GT(deepest(world), small);
             EXPECT_LT(ticks_until(world, small, most), most) << edge << (floats ? " floats" : "");
             if (!floats) continue;
-            for (BodyId id = 0; id < scene.bodies.size(); ++id) { // no speed comes of it
+            for (BodyId id = 0; id < scene.bodies.size(); ++id) { // overlaps must not cause speed
                 EXPECT_EQ(glm::length(world.velocity(id).value), 0.0);
             }
         }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Where bodies and hands should not be: inside each other, at edges, suddenly elsewhere.
+// Bodies and hands in bad places: inside each other, at edges, suddenly elsewhere.
 #include "scene/world.hpp"
 
 #include <cmath>
@@ -52,7 +52,7 @@ TEST(Overlap, BodiesDeepInEachOtherAndInTheFloorPartWithoutSpeed)
             world.tick();
             most = std::max(most, fastest(world, 3));
         }
-        // It falls off the others at most.
+        // At most it falls off the others.
         EXPECT_LE(most, std::sqrt(2.0 * 9.81 * 4.0 * half_edge)) << deep;
         for (BodyId id = 0; id < 3; ++id) {
             EXPECT_GE(world.body(id).position.y(), -1e-4) << deep << ' ' << id;
@@ -97,8 +97,8 @@ TEST(Hands, AppearInsideAndAnywhereWithNoMoreThanTheirGreatestForce)
 
 TEST(Hands, GrazeFacesEdgesAndCornersWithoutAJerk)
 {
-    // A weak spring that grazes along an edge and over a corner: the force never jumps by more
-    // than the hand's way in a tick explains.
+    // A weak spring that grazes along an edge and over a corner. The force never changes by more
+    // than the hand's motion in a tick explains.
     for (const double beside : {-1e-3, -1e-9, 0.0, 1e-9, 1e-3, 4.9e-3}) {
         Description scene = on_a_floor({cube(glm::dvec3{0.0})});
         scene.hands.damping_ns_per_m = 0.0;
@@ -204,7 +204,7 @@ TEST(Sleepers, LieStillUntilWhatMovesTouchesThem)
             const double gap = world.body(1).position.x() - world.body(0).position.x();
             EXPECT_GE(gap, 2.0 * half_edge - 1e-6);
             was_touched = world.is_awake(1);
-            // Asleep it has not moved; and nothing that moves has gone into it.
+            // A sleeping body has not moved, and no moving body has entered it.
             if (!was_touched) {
                 EXPECT_EQ(world.body(1).position.x(), 0.1);
             }

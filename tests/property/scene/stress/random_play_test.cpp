@@ -50,7 +50,7 @@ TEST(RandomPlay, IsTheSameEveryTime)
     }
 }
 
-/// A seed that broke a law once, and what was wrong then.
+/// A seed that once broke a law, and the fault.
 struct Scar {
     std::uint64_t seed;
     const char* name;
@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return each.param.name; });
 
 /// Islands that lost motion because last tick's forces drove them: where drag took a part of
-/// friction's, where a hand or a grip had counted on them, in a wedge at rest, on light bodies.
+/// friction's, where a hand or a grip relied on them, in a wedge at rest, on light bodies.
 class StaleForces : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(StaleForces, GiveWayWithoutAGuard)
@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(Heaps, StaleForces,
                          testing::Values(900000082, 900000732, 900001103, 900001212, 900001646,
                                          900002266, 900002621, 900004474, 900005361));
 
-/// A bounce was given whole after the drag of the tick, in a corner of two planes and off a body.
+/// A bounce was not reduced by the drag of its tick, in a corner of two planes and off a body.
 TEST(RandomPlay, OfBouncesAgainstDragNeedsNoGuard)
 {
     for (const std::uint64_t seed : {500400499U, 500432776U}) {
@@ -186,7 +186,7 @@ TEST(RandomPlay, OfBouncesAgainstDragNeedsNoGuard)
     }
 }
 
-/// Fast bodies that are packed, or that spin beside each other, and used up the looks of a tick.
+/// Fast bodies that are packed, or spin beside each other, and used up the tick's searches.
 class Crowds : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Crowds, GoTheirWayWithoutAGuard)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Stiffness, tick, mass ratio and speed, over all that they may be.
+// Stiffness, tick, mass ratio and speed, over their whole ranges.
 #include "scene/world.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// What a tick takes stays within what freeze() derived, whatever the scene. 100 000 scenes:
+// The work of a tick stays within the bound of freeze(), in any scene. 100 000 scenes:
 // HAPNET_COST_SCENES=100000.
 #include "tests/support/scene/random_play.hpp"
 
@@ -45,7 +45,7 @@ TEST(CostOfATick, StaysWithinTheBoundOfItsScene)
             most.looks = std::max(most.looks, cost.looks);
         }
     }
-    // It was counted at all.
+    // The work was counted.
     EXPECT_GT(most.pairs, 0U);
     EXPECT_GT(most.contacts, 0U);
     EXPECT_GT(most.visits, 0U);

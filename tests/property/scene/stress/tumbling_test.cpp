@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// A box with three unequal edges that is dropped spinning tumbles to rest and gains no energy while
-// it moves. What lifts it out of the floor once it has come to rest falls with the tick.
+// A box with three unequal edges, dropped with spin, tumbles to rest and gains no energy while it
+// moves. The energy that lifts it out of the floor at rest falls with the tick.
 #include "scene/world.hpp"
 #include "tests/support/scene/dice.hpp"
 
@@ -38,10 +38,10 @@ double energy_of(const scene::World& world, const scene::BodyDescription& form)
            0.5 * glm::dot(own, own / scene::box_inertia(form.mass_kg, form.half));
 }
 
-/// Whether the box moves faster than at 0.1 mm/s or so: enough to pay for a lift.
+/// True if the box moves faster than about 0.1 mm/s, enough to pay for a lift.
 bool moves(const scene::World& world) { return world.state().bodies.kinetic_energy(0) > 1e-9; }
 
-/// The sum of what the box gains in the ticks in which it gains, over a second, J; of 0.2 J.
+/// The sum of the energy gains over a second's ticks, J; the box starts with 0.2 J.
 double gained(const scene::Description& drawn, base::Duration tick)
 {
     auto world = scene::World::freeze(drawn, {.tick = tick, .sleeping = false});

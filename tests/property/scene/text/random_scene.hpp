@@ -11,7 +11,7 @@
 
 namespace hapnet::scene {
 
-/// Draws scenes from anywhere in their space, possible ones only; nothing about them makes sense.
+/// Draws scenes from the whole space of valid scenes, without regard to sense.
 class RandomScene {
 public:
     explicit RandomScene(std::uint64_t seed) : stream_{base::Seed{seed}.stream("scenes")} {}
@@ -48,7 +48,7 @@ public:
 private:
     std::uint64_t bits() { return stream_.bits(index_++); }
     std::uint64_t below(std::uint64_t most) { return bits() % most; }
-    int power() { return static_cast<int>(below(1060)); } // down to what is hardly a number
+    int power() { return static_cast<int>(below(1060)); } // down to the smallest numbers
 
     double between(double least, double most)
     {

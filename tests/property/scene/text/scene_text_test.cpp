@@ -20,7 +20,7 @@ TEST(SceneText, EveryPrintedSceneReadsBackAsItself)
         const auto read = parse_scene(text, "printed");
         ASSERT_TRUE(read) << read.error().message << "\n" << text;
         ASSERT_TRUE(*read == scene) << text << "\nreads as\n" << to_text(*read);
-        ASSERT_EQ(to_text(*read), text); // zeros too have their sign
+        ASSERT_EQ(to_text(*read), text); // the sign of zeros is kept
         ASSERT_EQ(hash(*read), hash(scene));
     }
 }

@@ -109,7 +109,7 @@ TEST(PlayerGroup, GivesEachLinkTheFatesOfAnEmulatorWithThisLink)
         const auto admission = alone.on_packet(emulator::Direction::up, bytes, VirtualWorld::start);
         if (!admission.drop) ++delivered;
     }
-    // Those of the last tick are still in the receiver's socket.
+    // The datagrams of the last tick are still in the receiver's socket.
     EXPECT_NEAR(static_cast<double>(delivered), static_cast<double>(statistics.delivered), 2.0);
     EXPECT_NE(world.link(0, 1).statistics().delivered, statistics.delivered);
 }
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Seed, TroubledGroups, testing::Range(std::uint64_t{0}, 
 
 TEST(PlayerGroup, IsNotHeldUpByAHandThatDiedBeforeItWasMet)
 {
-    // Started again, it met one of the others, touched and died, before it met the second.
+    // A restarted peer met one of the others, touched and died, before it met the second.
     const auto played = test::play_troubled_group(810041, 3, test::Seal::keys);
     EXPECT_FALSE(played.complaint) << *played.complaint;
 }

@@ -60,7 +60,7 @@ TEST(Play, OfOneSettingGivesTheSameBitsWhateverThePhases)
 
 using Ticks = std::shared_ptr<const std::vector<base::Duration>>;
 
-/// Of a loop that ticks evenly from `first` on, for more than a session of 8 s.
+/// The ticks of a loop that ticks evenly from `first` on, for more than a session of 8 s.
 Ticks even_ticks(base::Duration first)
 {
     std::vector<base::Duration> ticks;
@@ -68,7 +68,7 @@ Ticks even_ticks(base::Duration first)
     return std::make_shared<const std::vector<base::Duration>>(std::move(ticks));
 }
 
-/// The same, but for what it misses from `at` on.
+/// As even_ticks(), without the ticks missed from `at` on.
 Ticks ticks_without(base::Duration at, base::Duration missed)
 {
     const Ticks all = even_ticks(0ms);
@@ -176,7 +176,7 @@ TEST(Play, OfASessionThatCannotBeginGivesAnEmptyTrace)
 
 TEST(Play, OfASessionThatOneSideHearsOfLateBeginsWithThatSide)
 {
-    Setting setting = troubled(); // nothing of R's is lost, and of L's all in the first 3 s
+    Setting setting = troubled(); // from R nothing is lost, from L everything in the first 3 s
     setting.profile.path.up.loss = {emulator::Outage{{{100ms, 3000ms}}}};
     const auto trace = play(setting);
     ASSERT_TRUE(trace);
@@ -232,7 +232,7 @@ TEST(Play, LosesNoDatagramThatTheEmulatorWouldKeep)
     EXPECT_GT(full(small), 0U) << "5 s of states are more than it holds";
     const auto trace = play(setting);
     ASSERT_TRUE(trace);
-    // B's cube is A's of 5 s ago, as long as nothing is missing.
+    // B's cube is A's of 5 s ago, as long as no message is missing.
     const auto &left = trace->sides[0], &right = trace->sides[1];
     ASSERT_GT(left.size(), 20'000U);
     for (std::size_t i = 10'000; i < left.size(); ++i) {

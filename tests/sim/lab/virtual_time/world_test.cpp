@@ -88,7 +88,7 @@ TEST(VirtualWorld, FollowsARampMillisecondByMillisecond)
     EXPECT_EQ(std::get<emulator::ConstantLaw>(law).value, 50ms);
 }
 
-/// Of both sides of the first group, over 4 s.
+/// The hash of both sides of the first group, over 4 s.
 std::uint64_t hash_of_the_first(VirtualWorld& world, const auto& disturb)
 {
     sim::Hash hash;

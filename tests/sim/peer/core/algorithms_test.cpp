@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Two peers over a bad path with each algorithm, and what the paper's dead reckoning is known by.
+// Two peers over a bad path with each algorithm, and known properties of dead reckoning.
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/math.hpp"
 #include "tests/sim/peer/core/letters.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 Algorithm algorithm(const char* name) { return algorithm_named(name).value(); }
 
-/// Two peers, the left of which carries the body to and fro, once in 2 s.
+/// Two peers. The left one carries the body to and fro, once in 2 s.
 class Carrying {
 public:
     Carrying(const std::array<Algorithm, 2>& algorithms, const Letters::Way& way) : letters_{way}
@@ -89,7 +89,7 @@ TEST(Algorithms, DeadReckoningTakesTheDelaysFirstOrderAway)
     Carrying reckoned{{algorithm("dead-reckoning"), algorithm("dead-reckoning")}, steady_160_ms};
     Carrying apart{{algorithm("dead-reckoning"), algorithm("dead-reckoning")}, steady_160_ms};
     apart.ahead = {0s, 100s}; // clocks that differ
-    // Of a sine with w D = 0.5: mean 2 A / pi times 2 sin(w D / 2) and |1 - (1 + i w D) e^-iwD|.
+    // For a sine with w D = 0.5: mean 2 A / pi times 2 sin(w D / 2) and |1 - (1 + i w D) e^-iwD|.
     const double whole = 2.0 * 30.0 / 3.14159265;
     EXPECT_NEAR(mean_apart_mm(base), whole * 2.0 * std::sin(0.2513), 0.03 * whole);
     EXPECT_NEAR(mean_apart_mm(reckoned), whole * 0.1240, 0.03 * whole);
@@ -109,7 +109,7 @@ TEST(Algorithms, SepIsTheBaseAlgorithmWhereTheHandThatWatchesHasNoForce)
     EXPECT_GT(base.apart_mm(), 0.0);
 }
 
-/// By how many places apart in algorithm_names.
+/// Two algorithms, by the distance of their places in algorithm_names.
 class AlgorithmsApart : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(AlgorithmsApart, PlayTogetherAndAgreeInTheEnd)
@@ -143,7 +143,7 @@ TEST(Algorithms, StayBoundedOverRestartsOfEitherSide)
                 for (const std::size_t side : {0U, 1U}) {
                     const base::Position place = session.place(side);
                     ASSERT_TRUE(base::is_finite(place)) << name;
-                    // A prediction over 70 ms and gaps, of a body within 30 mm of the middle.
+                    // The bound of a prediction over 70 ms and gaps, within 30 mm of the middle.
                     ASSERT_LT(std::abs(place.x()), 0.15) << name << " " << run << " " << ms;
                     ASSERT_LT(base::norm(session.ticks.at(side).remote_force), 3.3 + 1e-9);
                 }
@@ -153,8 +153,8 @@ TEST(Algorithms, StayBoundedOverRestartsOfEitherSide)
     }
 }
 
-/// The rules of dead reckoning over a path of messages, without scenes: section 1.6's trajectory
-/// of a hand, clipped where the body meets the static cube, every millisecond for 20 s.
+/// The rules of dead reckoning over a path of messages, without scenes: the hand's trajectory in
+/// the paper's section 1.6, cut where the body meets the static cube, every millisecond for 20 s.
 class Kinematic {
 public:
     struct Impairment {
@@ -249,7 +249,7 @@ private:
     }
 };
 
-/// What stands where it was last heard: no velocity reaches over any gap.
+/// Holding the last place: no velocity is used over any gap.
 const DeadReckoningOptions hold{.gap_max = base::Duration{0}};
 const DeadReckoningOptions nominal{};
 const DeadReckoningOptions sender{.velocity = VelocityRule::sender};
@@ -259,7 +259,7 @@ TEST(DeadReckoning, OfTheNominalVelocityCutsTheErrorOfAConstantDelayToAQuarter)
 {
     const double held = Kinematic::play(hold, {.delay_ms = 160.0}).mean_mm;
     const double reckoned = Kinematic::play(nominal, {.delay_ms = 160.0}).mean_mm;
-    // The paper's: 13.79 and 3.34 mm, by another hand.
+    // The paper has 13.79 and 3.34 mm, with another hand.
     EXPECT_NEAR(reckoned / held, 3.34 / 13.79, 0.03);
 }
 
@@ -271,7 +271,7 @@ TEST(DeadReckoning, OfTheNominalVelocityFailsUnderJitterAndNotByTheSendersStamps
     const double by_sender = Kinematic::play(sender, jitter).vibration_mm;
     const double by_arrival = Kinematic::play(arrival, jitter).vibration_mm;
     EXPECT_GT(by_nominal, 4.0 * held);
-    EXPECT_GT(by_arrival, 3.0 * held); // how much more depends on how finely arrivals are stamped
+    EXPECT_GT(by_arrival, 3.0 * held); // the excess depends on the resolution of arrival stamps
     EXPECT_LT(by_sender, 1.2 * held);
     const Kinematic::Impairment more{.delay_ms = 15.0, .jitter_ms = 15.0};
     EXPECT_GT(Kinematic::play(nominal, more).vibration_mm, 3.0 * by_nominal);

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Somebody on the path, who sees one side's messages and can send in its name, without a key to
-// stop him: what single datagrams of his do to a session.
+// An attacker on the path, who sees one side's messages and can send in its name, against sessions
+// without keys: the effects of single forged datagrams.
 #include "device/governor.hpp"
 #include "tests/unit/peer/core/pair.hpp"
 
 namespace hapnet::peer {
 namespace {
 
-/// A session under way, in which side 0 presses the cube.
+/// A running session in which side 0 presses the cube.
 Pair playing()
 {
     Pair pair;
@@ -39,7 +39,7 @@ void give(Pair& pair, std::size_t victim, const wire::Message& message)
     pair.peers[victim]->on_datagram(wire::encode(message).bytes(), pair.now);
 }
 
-/// Both play on in the same session, and every state counts.
+/// Expects that both continue in the same session, and that every state counts.
 void expect_to_play_on(Pair& pair, const Session& before, std::size_t victim)
 {
     const Counters counted = pair.peers[victim]->counters();
@@ -112,7 +112,7 @@ TEST_P(Forged, NumbersAheadDoNotMakeTrueStatesOutdated)
     for (const base::Duration stamped_ahead : {base::Duration{0}, base::Duration{900ms}}) {
         Pair pair = playing();
         const auto refused_before = pair.peers[victim]->counters().implausible;
-        for (int i = 0; i < 30; ++i) { // ten a second
+        for (int i = 0; i < 30; ++i) { // ten per second
             wire::State state = pair.state_sent_by(1 - victim).value();
             state.sequence += 900;
             state.sent += stamped_ahead;
@@ -134,7 +134,7 @@ TEST_P(Forged, PlacesDoNotDragTheBodyOutOfWhatTheOtherSideBelieves)
     const std::size_t victim = GetParam();
     Pair pair = playing();
     pair.hands = {};
-    pair.cut = true; // the forger alone is heard
+    pair.cut = true; // only the forger is heard
     for (int ms = 0; ms < 400; ++ms) {
         wire::State state = pair.state_sent_by(1 - victim).value();
         wire::BodyState body;
@@ -182,7 +182,7 @@ TEST(HandsOff, EndsTheForceWhateverTheOtherSideSends)
     int ticks_with_force = 0;
     base::Duration since_hands_off{};
     for (int ms = 0; ms < 19'000; ++ms) {
-        // A hand that presses on, wherever the cube goes.
+        // A hand that continues to press, wherever the cube goes.
         pair.hands[0].hip = {{pair.peers[0]->position().x() - 0.022, 0.0, 0.0}};
         pair.step();
         if (auto state = pair.state_sent_by(1)) { // pushes on, whatever the phase

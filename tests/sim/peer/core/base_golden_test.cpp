@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The paper's algorithm with its named defaults, bit by bit, as it was before it had options. Two
-// peers, hands that follow straight lines, and a path that delays, reorders, duplicates and loses:
-// nothing here but the peers' core and the scene can change the bits.
+// The paper's algorithm with its named defaults, bit by bit. Two peers have hands on straight
+// lines, and a path that delays, reorders, duplicates and loses. Only the peers' core and the scene
+// can change the bits.
 #include "tests/sim/peer/core/letters.hpp"
 
 #include <bit>
@@ -25,7 +25,7 @@ private:
     std::uint64_t hash_ = 0xcbf29ce484222325U;
 };
 
-/// Comes, pushes, turns back and goes, over and over; the period is in ticks.
+/// Approaches, pushes, turns back and leaves, repeatedly; the period is in ticks.
 Hand hand_at(double side, int tick, int period)
 {
     const int phase = tick % period;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Bodies that turn, and several of them, shared by two and three peers over networks as bad as
-// drawn from a seed.
+// Rotating bodies, and several bodies, shared by two and three peers over bad networks drawn from a
+// seed.
 #include "scene/maths/rotation.hpp"
 #include "scene/text/text.hpp"
 #include "tests/support/seeds.hpp"
@@ -19,14 +19,14 @@ namespace {
 
 constexpr base::Duration length = 12s; // 9 s hands on
 constexpr double limit_n = 3.3;
-/// As the scene's laws have it: a direction is held while the body turns.
+/// As in SceneLaws: the direction of a force is held while the body turns.
 constexpr double force_law = 1.0 + 1e-6;
 constexpr double apart_max_m = 0.1e-3;
 constexpr double turned_max_rad = 0.1 * 3.14159265358979 / 180.0;
 
 scene::Description turning_cube() { return scene::load_scene("turning", {}).value(); }
 
-/// The cubes of that scene on each other.
+/// The cubes of that scene, stacked.
 scene::Description stack_of_three()
 {
     scene::Description scene = scene::load_scene("stack-of-three", {}).value();
@@ -42,7 +42,7 @@ bool are_hands_off(base::Duration since_start)
 
 Hand away() { return {.hip = {{0.0, 0.3, 0.0}}, .velocity = {}}; }
 
-/// From the left and from the right, to and fro, off the middle: the cube is turned and shifted.
+/// Pushes from both sides, to and fro, off the middle, so that the cube rotates and moves.
 Hand turn(std::size_t side, base::Duration since_start)
 {
     if (are_hands_off(since_start)) return away();
@@ -54,7 +54,7 @@ Hand turn(std::size_t side, base::Duration since_start)
             .velocity = {{-sign * 0.006 * rate * std::cos(rate * t), 0.0, 0.0}}};
 }
 
-/// Each at another height, hard enough that the stack falls over sooner or later.
+/// Each hand pushes at another height, hard enough that the stack falls over sooner or later.
 Hand topple(std::size_t side, base::Duration since_start)
 {
     if (are_hands_off(since_start)) return away();
@@ -93,7 +93,7 @@ Group group_of(std::size_t size, base::Seed seed, const Case& one)
     return group;
 }
 
-/// How far apart the copies are at most.
+/// The largest differences between copies.
 struct Apart {
     double metres = 0.0;
     double radians = 0.0;
@@ -120,7 +120,7 @@ void expect_sound(const Group& group)
     for (std::size_t side = 0; side < group.peers.size(); ++side) {
         const Tick& tick = group.ticks[side];
         ASSERT_TRUE(base::is_finite(tick.force));
-        // Of each body that it touches at once, and of as many as fit around a hand.
+        // A hand may touch several bodies at once, as many as fit around it.
         ASSERT_LE(base::norm(tick.force), 3.0 * limit_n * force_law);
         ASSERT_LE(base::norm(tick.touched.on_body), limit_n * force_law);
         for (const SharedBody& shared : group.peers[side]->shared()) {
@@ -149,7 +149,7 @@ void expect_agreement(const Group& group)
     EXPECT_LE(end.radians, turned_max_rad);
 }
 
-/// How far bodies are from where they were, with their reach times their turn, metres.
+/// How far bodies have moved, with their reach times their rotation, metres.
 double farthest_m(const Peer& peer, const std::vector<scene::BodyState>& before)
 {
     double farthest = 0.0;
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SharedBodiesOf,
 
 scene::Description bench() { return scene::load_scene("bench", {}).value(); }
 
-/// Here and there among the bodies, gripping now and then: drawn anew each second.
+/// Moves randomly among the bodies, gripping now and then: drawn again each second.
 Hand fumble(const base::RandomStream& draw, std::size_t side, base::Duration since_start)
 {
     if (are_hands_off(since_start)) return away();
@@ -260,7 +260,7 @@ TEST_P(AnyBodies, AgreeAfterHandsOffWhateverTheHandsAndTheNetworkDid)
 INSTANTIATE_TEST_SUITE_P(Seed, AnyBodies, testing::Range(std::uint64_t{0}, test::seeds(20)));
 INSTANTIATE_TEST_SUITE_P(All, AnyBodies, testing::Range(test::seeds(20), std::uint64_t{60}));
 
-/// One who comes late starts with all bodies where the others have them.
+/// A late peer starts with all bodies where the others have them.
 TEST(SharedBodies, AreTakenOverByOneWhoComesLate)
 {
     Group group = group_of(3, base::Seed{4}, {bench, nullptr, "base"});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 // The energy that the other side can bring into a hand: honest tasks need less than the budget, and
-// a forged remote does not get beyond it.
+// a forged remote cannot exceed it.
 #include "peer/core/energy_budget.hpp"
 #include "proto/wire/message.hpp"
 #include "scene/text/text.hpp"
@@ -25,14 +25,14 @@ using test::GuardedPlay;
 using test::HandEnergy;
 using test::play_guarded;
 
-/// The most that a hand gets at an Omni with an algorithm, honest or attacked. The power is the
-/// mean of 5 ms.
+/// The largest power and energy that a hand gets at an Omni with an algorithm, honest or attacked.
+/// The power is the mean over 5 ms.
 struct Most {
     std::string_view algorithm;
     double power_w = 0.5;
     double work_j = 0.15;
 };
-/// Where honest sessions need more than those.
+/// The needs of honest sessions that exceed those.
 constexpr std::array exceptions{
     Most{.algorithm = "dead-reckoning", .power_w = 1.1},
     Most{.algorithm = "sep", .power_w = 1.1},
@@ -97,7 +97,7 @@ TEST_P(Honest, HandsNeverNeedMoreThanTheBudgetAndKeepTheirBits)
         for (std::size_t i = 0; i < delays.size(); ++i) {
             if (part_of(task, algorithm, i) != part) continue;
             const base::Duration delay = delays.at(i);
-            // It plays past ticks again and again, which takes twenty times as long.
+            // Rollback plays past ticks again, which takes twenty times as long.
             if (name == "rollback" && delay != 160ms) continue;
             const Setting setting = playing(task, delay, peer::algorithm_named(name).value());
             if (!validate(setting)) continue; // bodies that turn, or friction, are not for all
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(All, Honest,
                                           testing::Values(Part::other_delays)),
                          task_of);
 
-/// Bodies that turn, and several of them, and in how many ticks of all hands the limit may act.
+/// Scenes with several or rotating bodies, and in how many ticks the limit may act.
 struct Turning {
     Task task;
     std::size_t players;
@@ -177,7 +177,7 @@ TEST(EnergyBudget, OfAnAlgorithmFromASharedObjectIsThatOfBase)
     EXPECT_EQ(peer::energy_budget(omni, unknown), peer::energy_budget(omni, peer::BaseAlgorithm{}));
 }
 
-/// Which way a forged remote pushes the hand along x: 1 or -1.
+/// The direction in which a forged remote pushes the hand along x: 1 or -1.
 using Push = double (*)(double seconds, const device::Sample& hand);
 
 double one_way(double /*seconds*/, const device::Sample& /*hand*/) { return 1.0; }
@@ -191,11 +191,11 @@ double square_wave(double seconds, const device::Sample& /*hand*/)
     return std::fmod(seconds * hertz, 1.0) < 0.5 ? 1.0 : -1.0;
 }
 
-/// A remote that puts the cube where the hand is in it by 7 mm, on the side that pushes as asked;
-/// or throws it to and fro in every tick.
+/// A remote that puts the cube where the hand is 7 mm deep in it, on the side that pushes as
+/// requested; or throws it to and fro in every tick.
 struct Attack {
     const char* name;
-    Push push; // nullptr: throws
+    Push push; // nullptr: throws the cube
 };
 
 wire::State forged(const Attack& attack, const Player& victim, int tick)
@@ -222,7 +222,7 @@ wire::State forged(const Attack& attack, const Player& victim, int tick)
     return state;
 }
 
-/// The victim's energy after 12 s of it.
+/// The victim's energy after an attack of 12 s.
 struct Suffered {
     double work_5s_j = 0.0;
     double power_w = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// SEP in closed loops: what its force's prediction does to two hands that feel each other.
+// SEP in closed loops: the effect of its force prediction on two hands that feel each other.
 #include "lab/virtual_time/play.hpp"
 
 #include <chrono>
@@ -53,7 +53,7 @@ TEST(EstimatorPredictor, IsTheBaseAlgorithmWithin3PercentWhereTwoHandsCarryOver1
 TEST(EstimatorPredictor, ShakesHandsThatPressAgainstEachOtherWhenItLooksFartherThanItsFilterBears)
 {
     const double base = means_of(device::Task::t2, 40ms, peer::BaseAlgorithm{}).force_n;
-    // Small gain: 1.35 time constants of 10 ms. One is below, two are beyond.
+    // Small gain: 1.35 time constants of 10 ms. One delay is below, two are beyond.
     EXPECT_NEAR(means_of(device::Task::t2, 40ms, sep(10ms)).force_n, base, 0.2 * base);
     EXPECT_GT(means_of(device::Task::t2, 40ms, sep(20ms)).force_n, 2.0 * base);
     EXPECT_GT(means_of(device::Task::t2, 40ms, sep(50ms)).force_n, 2.0 * base);

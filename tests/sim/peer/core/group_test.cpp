@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// More than two peers with one cube, over networks as bad as drawn from a seed.
+// More than two peers with one cube, over bad networks drawn from a seed.
 #include "tests/support/seeds.hpp"
 #include "tests/unit/peer/core/group.hpp"
 
@@ -70,7 +70,7 @@ void run_to(Group& group, base::TimePoint end)
     }
 }
 
-/// The end of the hands-off part, less so much.
+/// The end of the hands-off phase, minus `before`.
 base::TimePoint end_of(const Group& group, base::Duration before)
 {
     return group.peers.front()->session()->start + length - before;
@@ -88,7 +88,7 @@ TEST(Group, CarriesACubeTogetherAndAgreesWhereItIsInTheEnd)
             group.step();
             farthest = std::max(farthest, std::abs(group.peers.back()->position().x()));
         }
-        EXPECT_GT(farthest, 0.005) << size; // it is carried
+        EXPECT_GT(farthest, 0.005) << size; // the cube is carried
         run_to(group, end_of(group, 1s));
         EXPECT_LE(group.apart_m(), 0.1e-3) << size;
     }
@@ -102,7 +102,7 @@ TEST(Group, FeelsNothingOfADeadHandAfter300MsAndPlaysOnAfterASecond)
         ASSERT_TRUE(group.all_play());
         group.kill(victim);
         const auto killed = group.now;
-        // What it sent is on its way for 40 ms; then its last state holds for 250 ms and fades.
+        // Its last datagram takes 40 ms. Then its last state holds for 250 ms and fades.
         run_to(group, killed + 40ms + 300ms);
         for (std::size_t side = 0; side < 3; ++side) {
             if (side == victim) continue;
@@ -148,7 +148,7 @@ TEST(Group, OfTwoHandsThatPushTheSameWayIsFeltAsTheirSum)
     };
     run_to(group, group.now + 6s);
     ASSERT_TRUE(group.all_play());
-    // In balance what the one pushes is what the two push together.
+    // In balance the push of the one hand equals the push of the two together.
     const double one = group.ticks[0].touched.on_body.x();
     const double two = group.ticks[1].touched.on_body.x() + group.ticks[2].touched.on_body.x();
     EXPECT_GT(one, 0.1);
@@ -186,7 +186,7 @@ TEST_P(Groups, OfAnySizeAgreeInTheEndWhateverHappened)
         group.isolate(side, false);
         if (dies) group.start(side, settings_for(group, side));
     }
-    // When the last that knew a session died, those that came meanwhile begin another.
+    // When the last peer that knew a session died, those that came meanwhile begin another.
     for (int ms = 0; ms < 3000 && !group.all_play(); ++ms) group.step();
     ASSERT_TRUE(group.all_play()) << size;
     start = group.peers.front()->session()->start;
@@ -200,10 +200,10 @@ TEST_P(Groups, OfAnySizeAgreeInTheEndWhateverHappened)
 INSTANTIATE_TEST_SUITE_P(Seed, Groups, testing::Range(std::uint64_t{0}, test::seeds(20)));
 INSTANTIATE_TEST_SUITE_P(All, Groups, testing::Range(test::seeds(20), std::uint64_t{50}));
 
-/// Beyond 20 ms and four times half of a round trip, of at most 70 ms each way, starts are two.
+/// Beyond 20 ms and four times half of a round trip, of at most 70 ms each way, starts differ.
 constexpr base::Duration one_start_within = 20ms + 4 * 70ms;
 
-/// How far apart the starts of all are.
+/// The largest difference between the starts of all peers.
 base::Duration starts_apart(const Group& group)
 {
     const auto starts = std::minmax_element(
@@ -221,7 +221,7 @@ struct Partition {
         for (std::size_t a = 0; a < half; ++a)
             for (std::size_t b = half; b < order.size(); ++b) group.cut(order[a], order[b], is_cut);
     }
-    /// Those at these places of the order, who wait for one other.
+    /// Starts the peers at these places of the order, each waiting for one other.
     void start(std::size_t from, std::size_t to)
     {
         for (std::size_t i = from; i < to; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Conditions drawn from a seed, and what must hold in every millisecond under them.
+// Conditions drawn from a seed, and invariants that hold in every millisecond.
 #include "tests/sim/peer/core/score.hpp"
 #include "tests/support/seeds.hpp"
 

@@ -32,7 +32,7 @@ public:
         }
     }
 
-    /// `ahead`: of the sides' clocks.
+    /// `ahead`: the lead of each side's clock.
     void deliver(std::array<std::unique_ptr<Peer>, 2>& peers, base::TimePoint now,
                  const std::array<base::Duration, 2>& ahead = {})
     {

@@ -22,7 +22,7 @@ using lab::virtual_time::Setting;
                     world.side(1).peer().body().position.x());
 }
 
-/// Until both run, at most 10 s.
+/// Plays until both peers run, at most 10 s.
 inline void run_until_started(World& world)
 {
     const auto end = world.now() + std::chrono::seconds{10};
@@ -32,7 +32,7 @@ inline void run_until_started(World& world)
     while (world.now() < end && !(runs(0) && runs(1))) world.step();
 }
 
-/// Mean, deviation and maximum of what is added.
+/// Mean, deviation and maximum of added values.
 class Spread {
 public:
     void add(double value)
@@ -58,7 +58,7 @@ private:
     double most_ = 0.0;
 };
 
-/// What a session is scored by while both sides run.
+/// The score of a session while both sides run.
 struct Score {
     Spread discrepancy_mm;
     std::array<Spread, 2> force_n; // that each hand was given
@@ -79,7 +79,7 @@ struct Score {
     return score;
 }
 
-/// Both directions alike.
+/// The same conditions in both directions.
 [[nodiscard]] inline Setting under(device::Task task, const emulator::Conditions& conditions)
 {
     Setting setting{.task = task};

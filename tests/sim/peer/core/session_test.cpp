@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Whole sessions, against the figures that they are to give.
+// Whole sessions, against their expected figures.
 #include "tests/sim/peer/core/score.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(Session, OfT3AsksNoHandForMoreThanTheDeviceGivesForHours)
         const Score score = play(world);
         for (const Spread& force : score.force_n) {
             EXPECT_LT(force.mean(), 0.8) << delay.count();
-            EXPECT_GT(force.mean(), 0.1) << delay.count(); // there is a squeeze
+            EXPECT_GT(force.mean(), 0.1) << delay.count(); // the hands squeeze
         }
     }
 }
@@ -62,7 +62,7 @@ TEST(Session, UnderALossOf93PercentIsPlayedAndEndsWithEqualCopies)
         World world{under(
             task, {.loss = {emulator::RandomLoss{93_percent}}, .delay = emulator::constant(20ms)})};
         const Score score = play(world);
-        // The start may have been heard late, but not by half the session.
+        // The start may have been learned late, but not by half the session.
         EXPECT_GT(score.discrepancy_mm.count(), 13'000) << device::name_of(task);
         EXPECT_LT(score.discrepancy_mm.most(), 80.0) << device::name_of(task);
         world.run_for(2s);
@@ -108,8 +108,8 @@ std::uint64_t hash_of_a_session(base::Seed seed)
     return hash.value();
 }
 
-// Recorded 2026; equal under GCC and Clang, -O0 and -O2. It changes with anything that changes
-// what two peers do: then put the new value here, and say why in the commit.
+// The recorded hashes are equal under GCC and Clang, -O0 and -O2. After a change of what two peers
+// do, put the new value here, and say why in the commit.
 TEST(Session, OfOneSeedIsTheSameToTheLastBitEverywhere)
 {
     EXPECT_EQ(hash_of_a_session(base::Seed{42}), 1170718206048595518U);

@@ -62,7 +62,7 @@ TEST(BaseInC, GivesTheSameBitsAsBase)
                    "both.jitter = { law = \"uniform\", half_width = \"15ms\", order = \"free\" }"},
         {Task::t4, "both.delay = \"10ms\"\nboth.burst_loss = \"40/100\""},
         {Task::t7, "both.delay = \"20ms\"\nboth.loss = \"10%\"", 3},
-        // So long a silence that forces fade, and the copies settle after it.
+        // A silence so long that forces fade, and the copies settle after it.
         {Task::t3, "[[at]]\ntime = \"4s\"\nboth.loss = \"100%\"\n[[at]]\ntime = \"5s\"\n"
                    "both.loss = \"0%\""},
     };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The tasks with bodies that turn, and several, do what they are for.
+// The tasks with rotating bodies, and with several bodies, reach their goals.
 #include "scene/maths/rotation.hpp"
 #include "scene/text/text.hpp"
 #include "tests/sim/peer/core/score.hpp"

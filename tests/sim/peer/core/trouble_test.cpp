@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What happens when a part dies, and when it comes back.
+// Sessions in which a part dies, and comes back.
 #include "tests/sim/peer/core/score.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool told(const Player& side, Event event)
     return std::find(side.events.begin(), side.events.end(), event) != side.events.end();
 }
 
-/// A squeeze under way, with both hands feeling it.
+/// A running squeeze that both hands feel.
 World squeezing()
 {
     World world{under(Task::t3, {.delay = emulator::constant(delay)})};
@@ -34,7 +34,7 @@ World squeezing()
     return world;
 }
 
-/// From the last arrival on the force holds for 250 ms and is zero after 300.
+/// Expects that the force holds for 250 ms after the last arrival, and is zero after 300 ms.
 void expect_fade(World& world, std::size_t side)
 {
     world.run_for(delay + 250ms - 2ms);
@@ -47,7 +47,7 @@ void expect_fade(World& world, std::size_t side)
         world.step();
         ASSERT_EQ(world.side(side).told(), base::Force{}) << ms;
     }
-    EXPECT_EQ(world.side(side).last().phase, Phase::running); // and goes on
+    EXPECT_EQ(world.side(side).last().phase, Phase::running); // and it continues
 }
 
 class Death : public testing::TestWithParam<std::size_t> {};
@@ -73,8 +73,8 @@ TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
     while (world.side(restarted).last().touched.touching ||
            !world.side(restarted).last().permitted) {
         world.step();
-        // Until it has seen the cube it touches nothing; then it has it where the other has it,
-        // up to what that one moved meanwhile.
+        // Until it has received the cube it touches nothing. Then it has the cube where the other
+        // has it, up to the motion meanwhile.
         ASSERT_LT(++ms, 1000);
     }
     EXPECT_LT(discrepancy_x(world), 0.33 * base::to_seconds(2 * delay));
@@ -85,8 +85,8 @@ TEST_P(Death, OfASideIsOverWhenItComesBackAndItTakesTheCubeOfTheOneThatStayed)
     EXPECT_EQ(world.side(restarted).peer().session()->start, start);
     EXPECT_LT(world.side(stayed).last().sequence, sequence); // a new session, counted from 1
     for (const std::size_t i : {0U, 1U}) {
-        // Both may feel again; whether they find the cube is another matter: hands that play a
-        // script do not look for one that was dropped.
+        // Both may feel again. Whether they find the cube does not matter: scripted hands do not
+        // look for a dropped cube.
         EXPECT_TRUE(world.side(i).last().permitted) << i;
         EXPECT_EQ(world.side(i).last().phase, Phase::running) << i;
     }

@@ -45,7 +45,7 @@ bool has_event(const VirtualWorld& world, std::size_t side, Event event)
     return std::ranges::count(world.side(side).events, event) > 0;
 }
 
-/// Two players with keys, 3 ms apart, everything that side 0 ever sent, and how often each has
+/// Two players with keys, 3 ms apart; all datagrams of side 0; and how often each side has
 /// multiplied on the curve since the last step began.
 class Wire {
 public:
@@ -103,7 +103,7 @@ private:
     base::TimePoint now_{1000s};
 };
 
-/// Genuine initiations to the other side, of as many earlier runs.
+/// Genuine initiations to the other side, from `runs` earlier runs.
 std::vector<Bytes> initiations_of(const Setting& setting, std::size_t side, std::uint32_t runs)
 {
     std::vector<Bytes> captured;
@@ -122,9 +122,9 @@ std::vector<Bytes> initiations_of(const Setting& setting, std::size_t side, std:
     return captured;
 }
 
-/// What an attacker sends to side 1 in a tick, who sees all that it hears and has no key: plain
-/// messages in the name of the other side that push, buzz and throw, end and start sessions, and
-/// sealed ones that are changed or repeated.
+/// The datagrams of an attacker to side 1 in a tick. The attacker sees all that side 1 hears and
+/// has no key. He sends plain messages in the name of the other side that push, buzz and throw, end
+/// and start sessions, and changed or repeated sealed ones.
 void attack(Wire& world, int tick)
 {
     constexpr std::size_t victim = 1;
@@ -158,7 +158,7 @@ void attack(Wire& world, int tick)
     Bytes forged = heard.back();
     forged[static_cast<std::size_t>(tick) % forged.size()] ^= std::byte{0x10};
     give(forged);
-    give(heard[static_cast<std::size_t>(tick) % (heard.size() - on_their_way)]); // once more
+    give(heard[static_cast<std::size_t>(tick) % (heard.size() - on_their_way)]); // a repetition
 }
 
 } // namespace
@@ -189,7 +189,7 @@ TEST(KeyedSession, IsNotMovedABitByAFloodOfForgedMessages)
 
 TEST(KeyedSession, EndsTheForceWhenGenuineMessagesComeLate)
 {
-    // From 3 s on everything is held back for 2 s; then it comes again, 2 s old and genuine.
+    // From 3 s on everything is held back for 2 s. Then it arrives, genuine but 2 s old.
     VirtualWorld world{keyed_setting("[[at]]\ntime = \"3s\"\nboth.delay = \"2s\"")};
     double pressed_n = 0.0;
     while (world.now() < VirtualWorld::start + 3s) {
@@ -267,8 +267,8 @@ TEST(KeyedSession, GoesOnWithAPeerThatWasStartedAgainWithAnEarlierDate)
         world.kill(restarted);
         world.run_for(700ms);
         world.revive(restarted);
-        // Its initiations look old; those of the other side make the key, which says hello under
-        // it.
+        // Its initiations look old. Those of the other side make the key, under which it says
+        // hello.
         world.side(restarted).date_ahead = -1h;
         // The lower id asks for 5 s before it listens.
         world.run_for(restarted == 0 ? 9s : 4s);

@@ -77,7 +77,7 @@ TEST(DhdInterpreter, TakesADeviceForGoneAfterAHundredErrorsOfTheLineInARow)
     for (int i = 1; i < Interpreter::gone_after; ++i) {
         ASSERT_EQ(interpreter.report_of(broken, true).fault, Fault::communication);
     }
-    EXPECT_EQ(interpreter.report_of(good_reading(), true).fault, Fault::none); // begins anew
+    EXPECT_EQ(interpreter.report_of(good_reading(), true).fault, Fault::none); // starts again
     for (int i = 1; i < Interpreter::gone_after; ++i) {
         ASSERT_EQ(interpreter.report_of(broken, true).fault, Fault::communication);
     }

@@ -189,7 +189,7 @@ TEST_F(FalconTest, SilenceForMoreThan20MillisecondsIsATimeout)
     tick_with(homed_at({}));
     for (int i = 0; i < 20; ++i) EXPECT_EQ(tick().fault, Fault::none);
     EXPECT_EQ(tick().fault, Fault::timeout);
-    EXPECT_EQ(tick_with(homed_at({})).fault, Fault::none); // what is latched, others latch
+    EXPECT_EQ(tick_with(homed_at({})).fault, Fault::none); // others latch faults
 }
 
 TEST_F(FalconTest, AHostThatWasAwayTakesItForNoSilence)

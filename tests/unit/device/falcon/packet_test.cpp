@@ -65,7 +65,7 @@ TEST(FalconPacket, WithABadByteIsRefused)
         std::string bad = good;
         bad[i] = '<' + (i == 0 ? 1 : 0);
         EXPECT_FALSE(decode_report(packet_in(bad))) << i;
-        bad[i] = '@'; // just below 'A': only the byte that nobody knows may be it
+        bad[i] = '@'; // just below 'A': only the unknown byte may be it
         EXPECT_EQ(decode_report(packet_in(bad)).has_value(), i == 14) << i;
     }
     EXPECT_FALSE(decode_report(packet_in("<AAAAAAAAAAAA\xc1"

@@ -31,13 +31,13 @@ Bytes report()
     return {packet.begin(), packet.end()};
 }
 
-/// A conversation: what was asked and said is noted, what is heard comes from a function.
+/// A conversation: questions and commands are recorded, and a function gives the answers.
 struct Conversation {
     std::vector<ChipRequest> asked;
     std::vector<Bytes> said;
     int steps = 0;
 
-    /// `hears`: the answer to what was said last; nullopt: silence.
+    /// `hears`: the answer to the last command; nullopt: silence.
     Step play(Startup startup, const std::function<std::optional<Bytes>(const Bytes&)>& hears)
     {
         for (; steps < 100'000; ++steps) {
@@ -200,7 +200,7 @@ TEST(FalconStartup, LoadsAgainWhenAnEchoIsWrongAndGivesUpAfterFiveTimes)
 
 TEST(FalconStartup, EndsWhateverItHears)
 {
-    // Neither what says everything backwards is a Falcon, nor what never stops talking.
+    // A device that echoes everything is no Falcon, and neither is one that never stops sending.
     Conversation mirror;
     const Step with_mirror = mirror.play(Startup{firmware_of(130)}, [](const Bytes& said) {
         return Bytes{said.rbegin(), said.rend()};

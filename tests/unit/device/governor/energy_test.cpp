@@ -16,7 +16,7 @@ using test::Governed;
 
 constexpr double tiny = 1e-9;
 
-/// Moves a hand evenly along x under a force that is held.
+/// Moves a hand evenly along x under a constant force.
 void move(EnergyGuard& guard, double& x, double newtons, double metres_per_s, int ticks)
 {
     for (int i = 0; i < ticks; ++i) {
@@ -81,7 +81,7 @@ TEST(EnergyGuard, TakesFromAPushOnlyWhatIsTooMuchAndOnlyAlongTheMotion)
     const base::Force left = guard.allow({{3.0, 1.0, 0.0}}, velocity);
     EXPECT_EQ(left.y(), 1.0);
     EXPECT_GT(left.x(), 1.0);
-    // What the force itself adds to the velocity until the next tick counts, too.
+    // The velocity that the force itself adds until the next tick counts, too.
     const double mobility = EnergyGuard::behind_s / EnergyGuard::hand_kg;
     EXPECT_NEAR(0.3 * left.x() + mobility * (left.x() * left.x() + 1.0), 0.5, tiny);
 }

@@ -55,7 +55,7 @@ TEST(LimitsText, NamesTheLineOfWhatItDoesNotKnow)
     EXPECT_TRUE(read.error().message.starts_with("limits:2:")) << read.error().message;
 }
 
-/// What is said to a line besides limits that are good, or "" where it is taken.
+/// The refusal of a line beside valid limits, or "" where it is accepted.
 std::string refusal_of_limits(const std::string& line)
 {
     const auto read = read_limits("force_max = \"3N\"\n" + line + "\n");

@@ -19,7 +19,7 @@ TEST(MotorHeat, GoesTowardsTheSquareOfTheForceWithItsTime)
     MotorHeat heat{0.88, 15s};
     const base::Force force = along_x(0.88);
     for (int ms = 0; ms < 15'000; ++ms) heat.pass(force, 1ms);
-    // 1 - 1/e, and what steps of 1 ms are off by: less than 0.001 / 15 of it.
+    // 1 - 1/e, within the error of steps of 1 ms: less than 0.001 / 15 of it.
     EXPECT_NEAR(heat.heat(), 1.0 - std::exp(-1.0), 1e-4);
     EXPECT_EQ(heat.force_max_n(3.3), 3.3);
 }

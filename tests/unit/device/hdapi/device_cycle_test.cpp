@@ -8,7 +8,7 @@
 namespace hapnet::device::hdapi {
 namespace {
 
-/// What a library would say and hear; functions of C have nowhere else to look.
+/// The calls of a fake library. C functions have no other place for them.
 struct Told {
     unsigned int calibration = calibration::done;
     int updates = 0;

@@ -63,11 +63,11 @@ TEST(HdapiMapping, SpeaksMetresAndDoubtsWhatIsNotSensible)
     EXPECT_LT(doubtful.workspace_min.y(), doubtful.workspace_max.y());
     EXPECT_LT(doubtful.workspace_min.x(), doubtful.workspace_max.x());
 
-    // More than zero and finite, but not once they are in metres.
+    // Above zero and finite, but not after conversion to metres.
     EXPECT_DOUBLE_EQ(capabilities_of({.velocity_limit_mm_per_s = 5e-324}).speed_max_m_per_s, 1.0);
     EXPECT_DOUBLE_EQ(capabilities_of({.stiffness_max_n_per_mm = 1e306}).stiffness_max_n_per_m, 400);
 
-    // In metres: the scene would be magnified a thousand times, and a million times as stiff.
+    // In metres, the scene would be magnified a thousand times, and a million times as stiff.
     const Capabilities tiny =
         capabilities_of({.workspace_mm = {-0.08, -0.06, -0.035, 0.08, 0.06, 0.035}});
     EXPECT_DOUBLE_EQ(tiny.workspace_max.x(), 0.080);

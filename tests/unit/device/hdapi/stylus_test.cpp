@@ -54,7 +54,7 @@ TEST(HdapiStylus, IsAtFaultWhereOnlyAnEncoderResetWouldCalibrateIt)
 {
     Stylus stylus{calibration::style_encoder_reset};
     Report report = report_of(1);
-    EXPECT_EQ(stylus.read(report, start).fault, Fault::none); // it has been done elsewhere
+    EXPECT_EQ(stylus.read(report, start).fault, Fault::none); // another program has calibrated it
     report.cycle = 2;
     report.calibration = calibration::needs_update;
     EXPECT_EQ(stylus.read(report, start + 1ms).fault, Fault::not_calibrated);

@@ -90,8 +90,8 @@ TEST_F(Pid, IsOnlyReadWithoutItAndToldNothingAtAll)
 TEST_F(Pid, PushesTheHandTheWayTheForcePoints)
 {
     open({.force_full_n = 8.0});
-    // 1.2 N against a hand of 300 N/m, for long enough to come to rest: 4 mm, to the resolution
-    // of the force, 8 N / 32767, and of the position.
+    // 1.2 N against a hand of 300 N/m, until it is at rest: 4 mm, to the resolution of the force, 8
+    // N / 32767, and of the position.
     Sample sample;
     for (int i = 0; i < 2000; ++i) sample = tick(ungoverned({{1.2, 0.0, 0.0}}));
     EXPECT_NEAR(sample.hip.x(), 0.004, 5e-6);
@@ -184,7 +184,7 @@ TEST_F(Pid, ThatIsSilentBecauseNothingMovesIsNotAtFaultAtRestNorUnderForce)
     EXPECT_EQ(governor.state(), GovernorState::active);
     EXPECT_NEAR(line_.pid.push().force_n[0], 1.0, 8.0 / 32767);
     EXPECT_EQ(governor.counters().silent, 0U);
-    EXPECT_EQ(line_.questions, questions); // one left open would hold up what stops it
+    EXPECT_EQ(line_.questions, questions); // an open question would delay a stop
 }
 
 TEST_F(Pid, ThatSpeaksIsNotToldThatItRests)
@@ -194,7 +194,7 @@ TEST_F(Pid, ThatSpeaksIsNotToldThatItRests)
     for (int i = 0; i < 100; ++i) tick();
     EXPECT_EQ(line_.pid.pushes().size(), before);
     for (int i = 0; i < 100; ++i) tick({}, false);
-    // In the 8th tick, and in each 9th after it, as the tick that sees it taken is a new beginning.
+    // In the 8th tick, and in each 9th after it: the tick that sees it taken starts a new count.
     EXPECT_EQ(line_.pid.pushes().size(), before + 11);
 }
 
@@ -216,10 +216,10 @@ TEST_F(Pid, ThatTakesNothingIsAtFaultAfterTwentyMilliseconds)
     line_.is_stuck = true;
     int until = 0;
     while (tick(ungoverned({{1.0, 0.0, 0.0}})).fault == Fault::none && until < 100) ++until;
-    EXPECT_EQ(until, 20); // the first of them reads before it orders
+    EXPECT_EQ(until, 20); // the first tick reads before it sends
     EXPECT_EQ(tick().fault, Fault::timeout);
     line_.is_stuck = false;
-    tick(); // says zero now
+    tick(); // sends zero now
     EXPECT_EQ(tick().fault, Fault::none);
     EXPECT_FALSE(line_.pid.push().motors_on);
 }
@@ -288,7 +288,7 @@ TEST_F(Pid, TakesNoMemoryInATick)
 {
     open({.force_full_n = 8.0});
     tick(ungoverned({{1.0, 0.0, 0.0}}));
-    line_.is_stuck = true; // the double takes memory for what it notes
+    line_.is_stuck = true; // the double allocates memory for its notes
     for (int i = 0; i < 10; ++i) line_.waiting.push_back(line_.pid.input_report());
     const auto before = test::allocations();
     for (int i = 0; i < 10; ++i) {

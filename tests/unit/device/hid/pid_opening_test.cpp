@@ -19,7 +19,7 @@ using hid_double::Line;
 using hid_double::MemoryWire;
 using hid_double::ReportIds;
 
-/// The descriptor with every appearance of an item exchanged for another of the same length.
+/// The descriptor with every occurrence of an item replaced by another of the same length.
 std::vector<std::byte> with(const std::vector<unsigned>& item, const std::vector<unsigned>& other)
 {
     auto all = hid_double::pid_descriptor();

@@ -82,7 +82,7 @@ TEST_F(Cap, ThatSaysItNoMoreCountsAsLetGoAfterTwoHundredMilliseconds)
     hears({1, 0x5e, 0x01, 0, 0, 0, 0});
     for (int i = 0; i < 1000; ++i) tick();
     EXPECT_NEAR(tick().hip.x(), 0.0201, 1e-12);
-    EXPECT_EQ(tick().fault, Fault::none); // to be silent is no fault
+    EXPECT_EQ(tick().fault, Fault::none); // silence is not a fault
 }
 
 TEST_F(Cap, DoesNotJumpWhenTheHostPauses)

@@ -14,7 +14,7 @@ constexpr base::TimePoint start{1h};
 const Counts in_inkwell{40, -7000, 300};
 const Counts undocked = in_inkwell + Counts{100, 50, -50};
 
-/// A tracker that is told a word each millisecond.
+/// A tracker that gets a packet each millisecond.
 struct Teller {
     Tracker tracker{};
     base::TimePoint now = start;
@@ -137,7 +137,7 @@ TEST(OmniTracker, TrustsNoPlaceAfterABreakUntilTheStylusHasRestedInItsInkwellSin
     omni.dock();
     omni.say(undocked, false);
     omni.tracker.on_break();
-    EXPECT_FALSE(omni.say(undocked, false).calibrated); // though the counts go on as they were
+    EXPECT_FALSE(omni.say(undocked, false).calibrated); // though the counts continue unchanged
     EXPECT_EQ(omni.tracker.at(omni.now).fault, Fault::not_calibrated);
     EXPECT_EQ(omni.tracker.calibration(), CalibrationStep::dock_stylus);
     omni.dock();

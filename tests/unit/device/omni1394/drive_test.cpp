@@ -74,7 +74,7 @@ TEST(OmniDrive, UsesNoMoreThanAQuarterOfTheCountsUncalibrated)
 {
     const Drive drive{Use::uncalibrated, {}};
     const glm::ivec3 words = drive.motor_words({10.0, -4.0, 0.1});
-    // The direction stays, by counts that are of another size at the waist.
+    // The direction is kept, by counts that have another size at the waist.
     EXPECT_EQ(words, glm::ivec3(511, std::lround(-0.4 * 0.16835 / 0.13335 * 511), 6));
     Capabilities can;
     drive.describe(can);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// An Omni on a bus in memory, read each millisecond, and told a force each time.
+/// An Omni on a bus in memory. Each millisecond it is read, and gets a force.
 struct OnABus {
     MemoryBus bus;
     std::unique_ptr<Device> device{};
@@ -36,7 +36,7 @@ struct OnABus {
             device->apply(ungoverned({newtons}));
         }
     }
-    /// Calibrated, and in the middle of the workspace.
+    /// Calibrates it, and moves it to the middle of the workspace.
     void take_out()
     {
         play_for(100ms);
@@ -82,7 +82,7 @@ TEST(Omni1394, SaysWhereTheStylusIsOnceItHasBeenDocked)
     omni.take_out();
     EXPECT_TRUE(omni.sample.calibrated);
     EXPECT_FALSE(omni.sample.docked);
-    // Counts here and counts in the inkwell: half of one each, in three joints.
+    // Rounding here and in the inkwell: half a count each, in three joints.
     EXPECT_LT(base::norm(omni.sample.hip - omni.bus.omni.plant().tip()), 3 * 0.09e-3);
 }
 
@@ -160,7 +160,7 @@ TEST(Omni1394, SendsZeroToADeviceThatIsSilentAndOnce20MillisecondsHavePassed)
     EXPECT_EQ(omni.sample.fault, Fault::none);
     omni.play_for(1ms, {0.5, 0.0, 0.0});
     EXPECT_EQ(omni.sample.fault, Fault::timeout);
-    omni.bus.omni.stall(false); // it hears again, but has nothing to say yet
+    omni.bus.omni.stall(false); // it is back, but has no packet yet
     omni.now += 1ms;
     omni.sample = omni.device->read(omni.now);
     omni.device->apply(ungoverned({{0.5, 0.0, 0.0}}));
@@ -265,7 +265,7 @@ TEST(Omni1394, BeatsOnceForEachMillisecondOfPacketsAtTheBussOwnRateToo)
             omni.bus.say(omni.bus.omni.live(every_cycle ? 125us : 1ms));
             ++packets;
         };
-        // In life the packets come while it waits; here before each wait.
+        // In reality the packets come while it waits; here before each wait.
         while (packets < 800) {
             for (int i = 0; i < (every_cycle ? 4 : 1); ++i) speak();
             omni.device->pace([&] {

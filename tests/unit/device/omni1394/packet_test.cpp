@@ -31,8 +31,8 @@ std::vector<std::byte> bytes_of(const HostPacket& packet)
     return {bytes.begin(), bytes.end()};
 }
 
-// The first is what a program of the University of Twente sends, and its second word the same with
-// both lights; the others follow from the meaning of the bits.
+// The first packet is that of a program of the University of Twente, and so is the second with both
+// lights. The others follow from the meaning of the bits.
 TEST(OmniPacket, IsWrittenAsTheDescriptionsHaveIt)
 {
     EXPECT_EQ(bytes_of({}), from_hex("ff07 ff07 ff07 c053 00000000 00000000"));
@@ -50,7 +50,7 @@ TEST(OmniPacket, ClampsMotorsToTwelveBits)
 
 TEST(OmniPacket, IsReadAsTheDescriptionsHaveIt)
 {
-    // Of no device: laid out by hand. Undocked, the second button down.
+    // Not observed, but laid out by hand. Undocked, the second button down.
     const auto bytes = from_hex("00001e00 0100 feff e80a 2001 4002 6003 0000 2a fd 0710 "
                                 "c0fe a0fd 80fc 4657 0000 78563412 0000 0000 efbeadde");
     const auto packet = decode_device(bytes);
@@ -90,7 +90,7 @@ TEST(OmniPacket, MayBeLongerThanWhatIsUsedButNotShorterAndBeginsAsItDoes)
 
 TEST(OmniRegisters, HoldTheSerialNumberThatIsPrintedOnTheDevice)
 {
-    // Seen by a program of the University of Twente, which took it for a type; its last bit is 0.
+    // Observed by a program of the University of Twente, which took it for a type. Last bit: 0.
     EXPECT_EQ(quadlet_of(from_hex("83a6d80e")), 0x83a6d80eU);
     EXPECT_EQ(serial_of(0x83a6d80e), "70427300007");
     EXPECT_EQ(serial_of(0x80000001), "00000000000");

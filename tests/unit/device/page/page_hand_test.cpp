@@ -21,7 +21,7 @@ protected:
         now += 1ms;
         return hand.read(now);
     }
-    /// A page tells a place every 20 ms, as long as the person holds the hand.
+    /// A page sends a place every 20 ms while the person holds the hand.
     Sample hold(const base::Position& place, int ticks)
     {
         Sample sample;
@@ -72,7 +72,7 @@ TEST_F(ThePageHand, IsNeverFasterThanAMetreASecond)
 TEST_F(ThePageHand, GoesEvenlyBetweenTwoPlaces)
 {
     begin_session();
-    (void)hold({{0.0, 0.0, 0.0}}, 400); // there, and told of it 20 ms ago
+    (void)hold({{0.0, 0.0, 0.0}}, 400); // there, and last heard of 20 ms ago
     wishes->put(HandWish{{{0.010, 0.0, 0.0}}});
     for (int i = 1; i <= 20; ++i) {
         EXPECT_NEAR(tick().hip.x(), 0.0005 * i, 1e-12) << "tick " << i;

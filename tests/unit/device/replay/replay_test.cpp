@@ -73,7 +73,7 @@ Replay three_moments()
 TEST(Replay, GoesItsWayFromTheSessionsStartAndStaysAtItsEnd)
 {
     Replay hand = three_moments();
-    EXPECT_EQ(hand.read(start).hip, base::Position{}); // before its cue, where it begins
+    EXPECT_EQ(hand.read(start).hip, base::Position{}); // before its cue, at its start
     EXPECT_FALSE(hand.read(start).gripping);
     hand.on_cue({start + 1s, 27s, base::Seed{1}, 1, true});
     EXPECT_EQ(hand.read(start + 1900ms).hip, base::Position{});

@@ -18,8 +18,8 @@ HandMotion motion(const HandImpedance& hand, double friction, double step_s)
     return result;
 }
 
-/// The same in many short steps of symplectic Euler with Karnopp's friction: good to about half a
-/// short step's way.
+/// Integrates in many short steps of symplectic Euler with Karnopp's friction: exact to about half
+/// of a short step's path.
 HandAxis in_short_steps(HandAxis axis, const HandDrive& drive, double seconds)
 {
     constexpr int steps = 1000;

@@ -20,7 +20,7 @@ constexpr double half_count = plant.resolution_m / 2;
 
 SimulatedOmni omni_for(Task task) { return SimulatedOmni{Performer{.task = task}}; }
 
-/// Reads each millisecond in (from, from + length]; the last sample.
+/// Reads each millisecond in (from, from + length]. Returns the last sample.
 Sample read_for(SimulatedOmni& omni, base::TimePoint from, base::Duration length)
 {
     Sample sample;
@@ -147,7 +147,7 @@ TEST(SimulatedOmni, GoesToItsPartWithoutAJumpWhenCued)
         before = sample;
     }
     EXPECT_GT(fastest, 0.02);
-    // At its part: 21 mm left of the path's start, up to friction and its own unrest.
+    // At its part: 21 mm left of the path's start, up to friction and its own involuntary motion.
     EXPECT_NEAR(before.hip.x(), -0.021, 0.0013 + 0.0021 + half_count);
     EXPECT_NEAR(before.hip.z(), 0.0, 0.0013 + half_count);
 }
@@ -187,7 +187,7 @@ TEST(SimulatedOmni, PlaysP1AlikeHoweverThePersonWaversAndReacts)
 
 TEST(SimulatedOmni, PushesOnWhereItsTaskAsksForAForceThatItDoesNotFeel)
 {
-    // Nothing is there: the hand goes on by 10 mm per second and newton, from 150 ms after the
+    // Without a body there, the hand moves on by 10 mm per second and newton, from 150 ms after the
     // script wants 0.71 N, smoothed over 106 ms.
     SimulatedOmni omni = omni_for(Task::t5);
     omni.on_cue({start, 30s, base::Seed{1}, 1, true});

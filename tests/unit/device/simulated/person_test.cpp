@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What a simulated person does when a fault is latched.
+// The actions of a simulated person after a latched fault.
 #include "device/rig.hpp"
 #include "device/simulated/omni.hpp"
 
@@ -51,7 +51,7 @@ std::unique_ptr<Device> an_omni(Task task)
     return std::make_unique<SimulatedOmni>(Performer{.task = task});
 }
 
-/// One whose motors are hot for some time.
+/// An Omni whose motors are hot for some time.
 class HotOmni final : public Device {
 public:
     HotOmni(base::TimePoint from, base::TimePoint to) : from_{from}, to_{to} {}
@@ -78,8 +78,8 @@ private:
     base::TimePoint to_;
 };
 
-/// When a hand of T2 first feels a body that begins 20 mm beyond its task's, and how long it feels
-/// it within ten seconds.
+/// When a hand of T2 first feels a body that begins 20 mm beyond the task's place, and for how long
+/// within ten seconds.
 struct Found {
     std::optional<base::Duration> first{};
     int ticks = 0;
@@ -110,7 +110,7 @@ TEST(SimulatedPerson, LooksForABodyThatIsNotWhereItsTaskHasIt)
     EXPECT_FALSE(found_by(0.0).first);
     const Found found = found_by(0.05);
     ASSERT_TRUE(found.first);
-    // From 2 s on it means to touch, 0.4 s later it begins to look, and 20 mm take 0.4 s.
+    // From 2 s on it means to touch. It begins to search 0.4 s later, and 20 mm take 0.4 s.
     EXPECT_GT(*found.first, 2s + 400ms + 350ms);
     EXPECT_LT(*found.first, 2s + 400ms + 600ms);
     EXPECT_GT(found.ticks, 6900) << "and stays there";

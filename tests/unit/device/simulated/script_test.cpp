@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the scripts of T2 and T4 to T6 promise. The path, P1, T1 and T3 are in task_test.cpp.
+// The scripts of T2 and T4 to T6. The path, P1, T1 and T3 are in task_test.cpp.
 #include "device/simulated/script.hpp"
 
 #include <chrono>
@@ -35,8 +35,8 @@ TEST(EveryScript, StaysInItsHandsWorkspaceAndAsksForNoJump)
             base::Position before = at(hand, 0.0).target;
             for (int ms = 1; ms < 27'000; ms += 1) {
                 const base::Position target = at(hand, 1e-3 * ms).target;
-                // P1 aims on through the static cube, which stops the hand with the cube; T1's
-                // idle hand keeps off by 3 mm more than its device reaches.
+                // P1 aims beyond the static cube, which stops the hand with the cube. T1's idle
+                // hand stays 3 mm out of its device's reach.
                 const bool is_stopped = task == Task::p1 && target.x() > 0.050;
                 const double off_centre = target.x() - (is_left ? -0.025 : 0.025);
                 const double beyond = task == Task::t1 ? 0.003 : 0.0005;
@@ -44,8 +44,8 @@ TEST(EveryScript, StaysInItsHandsWorkspaceAndAsksForNoJump)
                     << name_of(task) << ms;
                 ASSERT_LE(std::abs(target.y()), 0.060) << name_of(task) << ms;
                 ASSERT_LE(std::abs(target.z()), 0.035) << name_of(task) << ms;
-                // The fastest is T5's letting go, 20 mm in 50 ms: 0.75 m/s in the middle. In T1 the
-                // turn changes at once where the path ends at the static cube.
+                // The fastest is the release in T5, 20 mm in 50 ms: 0.75 m/s in the middle. In T1
+                // the roles change at once where the path ends at the static cube.
                 ASSERT_LE(base::norm(target - before), task == Task::t1 ? 0.004 : 0.00076)
                     << name_of(task) << ms;
                 before = target;

@@ -25,7 +25,7 @@ Cue cue(bool is_left)
 Script left(Task task) { return Script{task, cue(true)}; }
 Script right(Task task) { return Script{task, cue(false)}; }
 
-/// The x of the path without its ease-in, as it stands in the task's description.
+/// The x of the path without its ease-in, as in the task's description.
 double formula_x(double t)
 {
     const auto swing = [t](double mm, double hertz, double phase) {
@@ -41,7 +41,7 @@ struct Statistics {
     double most = 0.0;
 };
 
-/// Of |x(t) - x(t - 160 ms)| over 0.16 to 30 s, in mm.
+/// Statistics of |x(t) - x(t - 160 ms)| over 0.16 to 30 s, in mm.
 template <typename Path>
 Statistics discrepancy(const Path& x)
 {
@@ -150,7 +150,7 @@ TEST(TaskP1, AimsTheLeftHandAtTheFaceOfACubeOnThePathAndNotIntoTheStaticCube)
         EXPECT_LE(target.x() + 0.025, 0.0747 + 1e-12) << ms;
         EXPECT_EQ(target.y(), 0.0);
         EXPECT_EQ(target.z(), 0.0);
-        // Above the cube, wherever a prediction may carry it.
+        // Above the cube, wherever a prediction may move it.
         EXPECT_EQ(right(Task::p1).at(start + ms * 1ms).target.y(), 0.045);
     }
 }
@@ -195,7 +195,7 @@ TEST(TaskT7, SharesTheSqueezeOfASideAmongTheHandsOnIt)
         Cue of_one = cue(true);
         of_one.share = share;
         const Script hand{Task::t7, of_one};
-        // 4 mm of a nominal hand's aim press with the whole.
+        // 4 mm of a nominal hand's aim press with the full force.
         EXPECT_NEAR(hand.at(start + base::from_seconds(t)).target.x(),
                     path_x(0.5 * t) - 0.025 + share * 0.004, 1e-12);
     }

@@ -44,7 +44,7 @@ LinkPointer link_of(const std::string& profile, std::uint64_t seed = 1)
     return link;
 }
 
-/// The text that a function writes into a buffer of the size that it asks for.
+/// Returns the text that a function writes into a buffer of the size that it asks for.
 std::string text_of(std::size_t (*write)(const hapnet_link*, char*, std::size_t),
                     const hapnet_link* link)
 {

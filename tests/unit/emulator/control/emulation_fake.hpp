@@ -19,9 +19,9 @@ namespace hapnet::emulator {
 
 using control::Conversation;
 
-/// An emulator that is only what its control sees of it.
+/// The part of an emulator that its control sees.
 struct EmulationFake {
-    /// `names`: of its paths.
+    /// `names`: the names of its paths.
     explicit EmulationFake(std::string_view toml, base::TimePoint start,
                            const std::vector<std::string>& names = {""},
                            bool takes_newcomers = false)
@@ -37,7 +37,7 @@ struct EmulationFake {
         return base::fail("no file " + name);
     }
 
-    /// The first of them.
+    /// Returns the first path.
     [[nodiscard]] EmulatedPath& path() const { return *paths.all().front().path; }
     [[nodiscard]] const Director& director() const { return path().director(); }
 
@@ -47,7 +47,7 @@ struct EmulationFake {
         return base::fail("no preset " + name);
     }
 
-    /// The delay of the datagrams that come now.
+    /// Returns the delay of datagrams that arrive now.
     [[nodiscard]] DelayLaw delay(Direction direction) const
     {
         return path().link(direction).conditions().delay.law;
@@ -67,7 +67,7 @@ struct EmulationFake {
     control::Subject subject = subject_of(emulation);
 };
 
-/// Takes what the conversation has to say.
+/// Takes the conversation's output.
 inline std::string said_by(Conversation& conversation, base::TimePoint now)
 {
     std::string said{conversation.output()};
@@ -75,7 +75,7 @@ inline std::string said_by(Conversation& conversation, base::TimePoint now)
     return said;
 }
 
-/// Everything that it says to `text` at once.
+/// Returns all immediate output for `text`.
 inline std::string said_to(Conversation& conversation, std::string_view text, EmulationFake& fake,
                            base::TimePoint now)
 {

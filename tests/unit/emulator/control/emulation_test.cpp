@@ -302,7 +302,7 @@ TEST_F(Talk, DoesWhatAClientAskedThatHasGone)
     EXPECT_EQ(conversation.output(), "");
 }
 
-/// What several paths are told, and say.
+/// Conversations with an emulator of several paths.
 struct TalkOfPaths {
     json ask(const json& request, base::TimePoint now = start)
     {

@@ -26,7 +26,7 @@ Paths::Setup part(std::vector<std::string> elsewhere, bool takes_newcomers = fal
 
 Profile parsed(std::string_view text) { return parse_profile(text, "all.toml", {}).value(); }
 
-/// Sets the delay of the path of this name; of all when it is empty.
+/// Sets the delay of the path of this name, or of all for an empty name.
 base::Result<void> set(AllPaths& all, const std::string& only, base::Duration delay,
                        base::TimePoint now)
 {
@@ -67,7 +67,7 @@ TEST(AllPaths, HaveOneGenerationThatEachPartCountsByItself)
     AllPaths all{{&one, &other}};
     one.advance(start + 2s - 1ns);
     EXPECT_EQ(all.generation(), 2U);
-    one.advance(start + 3s); // the second step is for the path of the other
+    one.advance(start + 3s); // the second step is for the other part's path
     other.advance(start + 1s);
     other.advance(start + 3s);
     EXPECT_EQ(one.generation(), 3U);
@@ -92,7 +92,7 @@ TEST(AllPaths, CountOnWhenAPartHasSlept)
     std::ignore = other.add("1-3");
     AllPaths all{{&one, &other}};
     one.advance(start + 1s);
-    one.advance(start + 2s); // two steps, which the other takes as one
+    one.advance(start + 2s); // two steps, which the other part takes as one
     other.advance(start + 2s);
     EXPECT_EQ(all.generation(), 3U);
     ASSERT_TRUE(set(all, "1-3", 7ms, start + 2s));
@@ -122,7 +122,7 @@ TEST(AllPaths, TellAClientWhatWasSetForItOnWhicheverPartItComes)
     ASSERT_TRUE(set(all, "client.2", 50ms, start));
     EXPECT_EQ(delay_of(one.add("client.1").director()), 10ms);
     EXPECT_EQ(delay_of(other.add("client.2").director()), 50ms);
-    EXPECT_EQ(all.deciders().size(), 3U); // those and whoever comes next
+    EXPECT_EQ(all.deciders().size(), 3U); // those, and future ones
     EXPECT_EQ(all.all().size(), 2U);
     ASSERT_TRUE(set(all, "client.2", 60ms, start + 1s));
     EXPECT_EQ(delay_of(all, "client.2"), 60ms);

@@ -85,7 +85,7 @@ TEST(Bottleneck, LetsABurstLeaveAtOnceAndSavesUpAnotherOneWhileItIsIdle)
 
 TEST(Bottleneck, WithABurstFollowsTheRuleOfATokenBucket)
 {
-    // In nanoseconds times bits a second, so that nothing is rounded but the result.
+    // In nanoseconds times bits a second, so that only the result is rounded.
     constexpr std::uint64_t rate = 7'000'001;
     constexpr std::int64_t burst = 4000;
     Bottleneck line{{.bits_per_second = rate,

@@ -37,7 +37,7 @@ Duration delay_in(const Conditions& conditions)
     return std::get<ConstantLaw>(conditions.delay.law).value;
 }
 
-/// 160 ms both ways.
+/// 160 ms in both directions.
 Profile plain()
 {
     Profile profile;
@@ -233,7 +233,7 @@ TEST(Director, LetsASettingByHandWinOverARampThatIsUnderWay)
     EXPECT_EQ(delay_in(director.path().up), 1ms);
 }
 
-/// Expects that to apply what remains changes nothing, now and later.
+/// Expects that applying the remaining settings changes nothing, now and later.
 void expect_remaining_is_faithful(Director director, Duration end)
 {
     const auto begin = director.now();

@@ -65,7 +65,7 @@ TEST(Frame, SaysWhichMachineItIsFor)
     to_all[0] = std::byte{0xff};
     EXPECT_EQ(destination_of(to_all), std::nullopt);
     auto to_group = frame;
-    to_group[0] = std::byte{0x33}; // as of a group of IPv6
+    to_group[0] = std::byte{0x33}; // a multicast address of IPv6
     EXPECT_EQ(destination_of(to_group), std::nullopt);
     EXPECT_EQ(destination_of(std::span{frame}.first(13)), std::nullopt);
 }
@@ -83,7 +83,7 @@ TEST(Frame, HasAnIpPacketWithoutWhatFillsItUp)
     auto filled_v6 = icmp_v6(128);
     filled_v6.resize(60);
     EXPECT_EQ(packet_in(framed({0x86, 0xdd}, filled_v6)), icmp_v6(128));
-    auto cut = udp_v4(); // says more than there is
+    auto cut = udp_v4(); // its header claims more bytes
     cut.resize(25);
     EXPECT_EQ(packet_in(framed({8, 0}, cut)), cut);
     EXPECT_EQ(packet_in(framed({8, 6}, Bytes(28))), Bytes{});

@@ -28,7 +28,7 @@ Link link_of(const Conditions& conditions, QueueLimits limits = {.datagrams_max 
     return Link{conditions, {base::Seed{7}, Direction::up, start, limits}};
 }
 
-/// What leaves until an hour has passed, in its order.
+/// Returns all departures within an hour, in their order.
 std::vector<Datagram> all_of(Link& link)
 {
     std::vector<Datagram> departures;
@@ -170,7 +170,7 @@ TEST(Link, LosesNothingWhenTheLawOfItsQueueChanges)
     conditions.queue = {.law = QueueLaw::fq_codel, .flows = 3};
     link.change(conditions, start + 700us);
     offer(start + 700us);
-    conditions.rate.bits_per_second = 0; // all that waits leaves at once
+    conditions.rate.bits_per_second = 0; // all waiting datagrams leave at once
     link.change(conditions, start + 900us);
     offer(start + 900us);
     while (const auto departure = link.poll(start + 1ms)) {

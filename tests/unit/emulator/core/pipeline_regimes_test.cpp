@@ -150,7 +150,7 @@ TEST(Regimes, GoOnWhenTheConditionsInThemChange)
     EXPECT_EQ(changed.on_packet(packet(3000)), Fate{});
 }
 
-/// When what arrives at once leaves a line whose rate follows the regimes: bit after bit.
+/// The departures of simultaneous datagrams from a line whose rate follows the regimes, by bits.
 std::vector<base::TimePoint> departures_of(const Regimes& regimes, std::size_t count, double bits,
                                            double fast, double slow)
 {

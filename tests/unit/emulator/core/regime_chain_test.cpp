@@ -106,7 +106,7 @@ TEST(RegimeChain, TellsItsCourseAtAnyTime)
 {
     auto chain = chain_of(good_and_bad());
     std::ignore = chain.at(100s);
-    const auto before = chain.course(50s); // it is not known any more: as of the last call
+    const auto before = chain.course(50s); // no longer known: as of the last call
     const auto after = chain.course(200s);
     EXPECT_LE(before[0].time + before[1].time, 100s);
     EXPECT_EQ(after[0].time + after[1].time, 200s);
@@ -133,7 +133,7 @@ TEST(Regimes, MustBeAbleToFollowEachOther)
     EXPECT_NE(refusal({Regime{"a", 1s, {{"b", 0.0}}, {}}, Regime{"b", 1s, {}, {}}})
                   .find("nothing follows"),
               std::string::npos);
-    // c is never reached; and a is never left for c again.
+    // c is never reached. Also, a is never left for c.
     EXPECT_NE(refusal({Regime{"a", 1s, {{"b", 1.0}}, {}}, Regime{"b", 1s, {{"a", 1.0}}, {}},
                        Regime{"c", 1s, {}, {}}})
                   .find("fall apart"),

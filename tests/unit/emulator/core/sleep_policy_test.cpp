@@ -19,7 +19,7 @@ std::optional<base::TimePoint> sleep_of(const SleepPolicy::Plan& plan)
     return std::get<SleepPolicy::Sleep>(plan).until;
 }
 
-/// One sleep of a millisecond that ends `late`.
+/// Makes one sleep of a millisecond that ends `late`.
 void sleep(SleepPolicy& policy, base::TimePoint from, base::Duration late)
 {
     const auto plan = policy.plan(from + 1ms + policy.margin(), from);
@@ -117,7 +117,7 @@ TEST(SleepPolicy, SettlesWhereAllButAFewWakeUpsLeaveTimeForAWarmUp)
     constexpr int settling = 5000;
     constexpr int counted = 20'000;
     for (int i = 0; i < settling + counted; ++i) {
-        const auto late = std::chrono::microseconds{(i * 37) % 50}; // 0 to 49 us, all as often
+        const auto late = std::chrono::microseconds{(i * 37) % 50}; // 0 to 49 us, equally often
         if (i >= settling && late + 15us > policy.margin()) ++later;
         sleep(policy, now += 2ms, late);
     }
@@ -127,7 +127,7 @@ TEST(SleepPolicy, SettlesWhereAllButAFewWakeUpsLeaveTimeForAWarmUp)
 }
 
 /// One second of a stream whose datagrams are due every `spacing`, each for `work` of processor
-/// time: how much of that second the thread is awake. Sleeps end as they should.
+/// time: the time of that second in which the thread is awake. Sleeps end on time.
 base::Duration awake_in_a_second(SleepPolicy policy, base::Duration spacing, base::Duration work)
 {
     auto now = start;
@@ -139,7 +139,7 @@ base::Duration awake_in_a_second(SleepPolicy policy, base::Duration spacing, bas
     };
     auto deadline = start + spacing;
     while (now < start + 2s) {
-        if (now < start + 1s) used_before = used; // what was saved up may be spent first
+        if (now < start + 1s) used_before = used; // the saved budget may be spent first
         if (policy.wants_usage(now)) policy.on_usage(used, now);
         const auto plan = policy.plan(deadline, now);
         if (const auto* sleep = std::get_if<SleepPolicy::Sleep>(&plan)) {

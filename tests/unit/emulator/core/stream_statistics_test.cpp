@@ -80,7 +80,7 @@ TEST(StreamStatistics, CallsDeparturesAClumpThatFollowEachOtherWithin50Microseco
 
 TEST(StreamStatistics, CountsRunsOfMissingUpdatesBetweenInOrderDepartures)
 {
-    // 0 is missing at first; then 2, 3, 4, of which 3 comes too late to matter.
+    // 0 is missing at first. Later 2, 3 and 4 are, of which 3 arrives too late to matter.
     const StreamReport report =
         report_of({passage(1, 10ms), passage(5, 15ms), passage(3, 16ms), passage(6, 17ms)});
     EXPECT_EQ(report.missing_runs.count, 2U);

@@ -67,7 +67,7 @@ Bytes long_v6(std::size_t bytes)
     return frame;
 }
 
-/// Whether its checksums are right: fixing them changes nothing.
+/// True if its checksums are right: fixing them changes nothing.
 bool has_right_checksums(const Bytes& frame)
 {
     Bytes fixed = frame;
@@ -81,7 +81,7 @@ TEST(TooBig, TellsTheSenderOfIpv4HowMuchPasses)
     const Bytes answer = too_big_answer(frame, 1280);
     ASSERT_EQ(answer.size(), ethernet + 576);
     EXPECT_TRUE(has_right_checksums(answer));
-    // To the sender, from the one that it was meant for.
+    // To the sender, from the intended receiver.
     EXPECT_EQ(at8(answer, 5), 0xa);
     EXPECT_EQ(at8(answer, 11), 0xb);
     const auto packet = std::span{answer}.subspan(ethernet);

@@ -10,7 +10,7 @@
 namespace hapnet::emulator::tools::batch_means_test {
 namespace {
 
-/// A series around 0.5 of uniform parts; each value takes `memory` of the one before.
+/// A series around 0.5 with uniform innovations; `memory` is the share of the previous value.
 BatchMeans series(base::Seed seed, std::uint64_t count, double memory)
 {
     BatchMeans means;
@@ -35,7 +35,7 @@ double mean_of(base::Seed seed, std::uint64_t count, double memory)
     return sum / static_cast<double>(count);
 }
 
-/// The share of 400 series whose interval has the true mean, 0.5, in it.
+/// The share of 400 series whose interval contains the true mean, 0.5.
 double coverage(std::uint64_t count, double memory)
 {
     constexpr int series_count = 400;
@@ -61,8 +61,7 @@ TEST(BatchMeans, SayNothingOfTooFewValuesAndKnowConstantsExactly)
 TEST(BatchMeans, KnowIndependentValuesAsWellAsTheoryDoes)
 {
     // Uniform values: 1.96 sd / sqrt(n) of the mean, and 1.96 sqrt((9/5 - 1) / 4 / n) of the sd.
-    // Of 32 batches the errors themselves are known to 13 %: 4 sd, besides what correlation by
-    // chance adds.
+    // With 32 batches the errors are known to 13 %: 4 sd, and chance correlation adds to them.
     constexpr double n = 64'000.0;
     const auto precision = series(base::Seed{1}, 64'000, 0.0).precision().value();
     EXPECT_NEAR(precision.mean / (1.96 * 0.57735 / std::sqrt(n)), 1.1, 0.6);

@@ -49,8 +49,8 @@ TEST(Netem, ASentenceBecomesConditions)
     EXPECT_TRUE(warns(netem, "has no effect"));
 }
 
-// The numbers in brackets: measured with Linux 6.1, of 100 000 packets. The first one is exact:
-// P(X <= 0.1) = (1/3) of the integral of P(X <= x) from 0 to 0.4, which is 0.0125 + 0.04.
+// The numbers in brackets were measured with Linux 6.1, over 100 000 packets. The first number is
+// exact: P(X <= 0.1) = (1/3) of the integral of P(X <= x) from 0 to 0.4, which is 0.0125 + 0.04.
 TEST(Netem, TheShareOfCorrelatedLossIsWhatTheKernelMakesOfIt)
 {
     EXPECT_NEAR(netem_correlated_share(0.10, 0.25), 0.0175, 1e-6);  // (1.67 %)

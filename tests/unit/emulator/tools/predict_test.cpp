@@ -67,7 +67,7 @@ TEST(Predict, CountsWhatIsDamagedAsLostWhereItIsSealed)
     profile.path.up.corrupt = {20_percent, 3};
     const auto plain = predict(profile, {.packets = 20'000}, base::Seed{1});
     const auto sealed = predict(profile, {.packets = 20'000, .is_sealed = true}, base::Seed{1});
-    // The same draws: what arrives damaged is all that differs.
+    // The draws are the same. Only damaged arrivals differ.
     EXPECT_EQ(sealed.up.statistics.corrupted, plain.up.statistics.corrupted);
     EXPECT_GT(plain.up.statistics.corrupted, 3000U);
     EXPECT_EQ(sealed.up.loss_runs.sum, plain.up.loss_runs.sum + plain.up.statistics.corrupted);
@@ -126,7 +126,7 @@ TEST(Predict, MixesRegimes)
     const auto up = predict(profile, {.packets = 1'000'000}, base::Seed{1}).up;
     // A fifth of the time is bad: 0.8 * 1 % + 0.2 * 30 %. 2000 stays: 2.3 % of a share.
     EXPECT_NEAR(up.loss_share(), 0.068, 0.004);
-    // Of what arrives, 15.02 % took 60 ms: beyond p50, below p90 and p99.
+    // 15.02 % of the arrivals took 60 ms: beyond p50, below p90 and p99.
     EXPECT_NEAR(base::to_seconds(up.measured.delay_quantiles->p50), 0.020, 0.001);
     EXPECT_NEAR(base::to_seconds(up.measured.delay_quantiles->p90), 0.060, 0.001);
     EXPECT_NEAR(base::to_seconds(up.measured.delay_quantiles->p99), 0.060, 0.001);

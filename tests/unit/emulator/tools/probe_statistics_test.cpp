@@ -103,7 +103,7 @@ TEST(ProbeStatistics, TellOnWhichWayQuestionsWereLost)
     Asking asking;
     asking.ask(10);
     asking.answer(0, 10ms, 10ms, 1);
-    asking.answer(3, 10ms, 10ms, 3); // of 1 and 2, one was heard
+    asking.answer(3, 10ms, 10ms, 3); // one of 1 and 2 arrived
     asking.answer(6, 10ms, 10ms, 6); // 4 and 5 were heard, their answers are lost
     const auto summary = asking.statistics.summary();
     EXPECT_EQ(summary.sent, 10U);

@@ -86,7 +86,7 @@ TEST(Axes, OfALatinHypercubeHaveEachPartOfTheirRangeOnce)
     for (const AxisValues& point : all) {
         ASSERT_EQ(point.size(), 3U);
         EXPECT_TRUE(point[0].ends_with("ms") && point[1].ends_with("%"));
-        // Rounded to a hundredth, a value may lie on the edge of its part: its middle decides.
+        // A rounded value may lie on the edge of its part, so the part's middle decides.
         delays.insert(static_cast<int>((number(point[0]) - 1e-9) / 200.0 * 30.0));
         losses.insert(static_cast<int>((number(point[1]) - 10.0 - 1e-9) / 80.0 * 30.0));
         ++hands[point[2]];

@@ -10,7 +10,7 @@
 
 namespace hapnet::lab::experiment {
 
-/// Vibration up to 0.95 mm is usable, by whatever filter, and any distance of the copies.
+/// Vibration up to 0.95 mm is usable, with any filter and any distance of the copies.
 inline metrics::Criteria known_criteria()
 {
     metrics::Criteria criteria;
@@ -27,10 +27,10 @@ inline double delay_ms(const SessionSpec& spec)
     return constant == nullptr ? 0.0 : 1e3 * base::to_seconds(constant->value);
 }
 
-/// A session whose outcome is known beforehand: it vibrates 9.99 um for every millisecond of delay
-/// by the filter of first order, half as much by the second's and a fifth by the fourth's, and from
-/// seed to seed 1 % more. So it is usable up to 0.95 mm: at seed 1 up to 95 ms, at seed 3 up to 93.
-/// Seed 1001 is like seed 1.
+/// A session with a known outcome: with the first-order filter it vibrates 9.99 um for every
+/// millisecond of delay, with the second-order one half as much, with the fourth-order one a fifth,
+/// and 1 % more from seed to seed. So it is usable up to 0.95 mm: at seed 1 up to 95 ms, at seed 3
+/// up to 93. Seed 1001 is like seed 1.
 inline PlayedSession known_session(const SessionSpec& spec)
 {
     const double seed = static_cast<double>((spec.setting.seed.value() - 1) % 1000 + 1);

@@ -51,7 +51,7 @@ std::string refusal(const std::string& setting)
 TEST(RecordedHands, PlayEveryTrialWithEverySeed)
 {
     const auto sessions = sessions_of(parsed(played).value());
-    // P1 has no chance under a constant delay: one seed for each trial.
+    // P1 is not random under a constant delay: one seed for each trial.
     ASSERT_EQ(sessions.size(), 2U * (3U + 3U * 2U));
     std::set<std::string> keys;
     for (const SessionJob& session : sessions) keys.insert(key_of(session.spec, "a program"));

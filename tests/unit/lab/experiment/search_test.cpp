@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// At which levels a search plays all seeds, for laws whose limit is known; and what the paper's
-// numbers are compared by.
+// The levels at which a search plays all seeds, for laws whose limit is known; and the comparison
+// with the paper's numbers.
 #include "lab/experiment/search.hpp"
 #include "lab/results/paper.hpp"
 
@@ -11,7 +11,7 @@ namespace hapnet::lab::experiment {
 
 namespace {
 
-/// In whole units.
+/// A range in whole units.
 SearchRange range(std::int64_t from, std::int64_t to, std::int64_t step, std::int64_t resolution)
 {
     return {Impairment::delay, {1000 * from}, {1000 * to}, {1000 * step}, {1000 * resolution}};
@@ -67,7 +67,7 @@ TEST(Search, LeavesItAtTheTopWhenNothingFails)
     const auto none = levels_to_count(range(0, 99, 10, 1), 40, from(99, 0));
     ASSERT_TRUE(none);
     EXPECT_EQ(whole(*none), std::vector<std::int64_t>{99});
-    // Of the others one fails at the top.
+    // One of the other seeds fails at the top.
     const Failures rare = [](ImpairmentLevel level, std::uint32_t seeds) {
         const bool is_top = level.thousandths >= 99'000;
         return base::Result<std::uint32_t>{seeds > scan_seeds && is_top ? 1U : 0U};
@@ -91,7 +91,7 @@ TEST(Search, LooksBelowTheRangeWhenItsFirstLevelFails)
 
 TEST(Search, IsNotMisledByASingleLevelThatFails)
 {
-    // One of four seeds fails at 40 alone, as a buzz at one delay would; all above 160.
+    // One of four seeds fails at 40 alone, as if one delay excited a resonance. All fail above 160.
     const Failures failures = [](ImpairmentLevel level, std::uint32_t seeds) {
         const bool is_high = level.thousandths > 160'000;
         const std::uint32_t few = level.thousandths == 40'000 ? seeds / 4 : 0;
@@ -169,7 +169,7 @@ TEST(Paper, Table1IsMetWithinItsBandsAndNotBeyond)
 
 namespace {
 
-/// A limit with this interval, whose replicates all are its middle.
+/// A limit with this interval, whose replicates are all in its middle.
 metrics::Threshold around(double p50, double half_width = 0.5)
 {
     metrics::Threshold threshold{

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// A stored session is found again by its key, which is to change with all that the session follows
-// from.
+// A stored session is found again by its key, which changes with everything that affects the
+// session.
 #include "lab/experiment/jobs.hpp"
 #include "lab/experiment/session_spec.hpp"
 #include "lab/experiment/text.hpp"

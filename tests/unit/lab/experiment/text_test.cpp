@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What an experiment's text says, and what is said of texts that are none.
+// The meaning of an experiment's text, and complaints about invalid texts.
 #include "emulator/core/profile/paths.hpp"
 #include "emulator/core/profile/text.hpp"
 #include "lab/experiment/criteria_text.hpp"
@@ -79,7 +79,7 @@ TEST(ExperimentText, TakesItsNetworkFromTheFileOfAProfile)
     const auto same = emulator::parse_profile(*open("home.toml"), "home.toml", {});
     EXPECT_EQ(named->path, same->path);
     EXPECT_EQ(named->timeline, same->timeline);
-    const auto again = parse_experiment(to_text(*named), "again"); // it needs no file any more
+    const auto again = parse_experiment(to_text(*named), "again"); // it no longer needs a file
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(again->path, named->path);
     const auto why = [&](const std::string& of) {

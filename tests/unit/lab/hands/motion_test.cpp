@@ -23,7 +23,7 @@ Track sine(double hertz, double rate_hz, double length_s)
     return track;
 }
 
-/// Amplitude of a sine, and how far it lags, over whole periods in the middle.
+/// The amplitude of a sine and its lag, over whole periods in the middle.
 struct Response {
     double gain = 0.0;
     double lag_s = 0.0;
@@ -47,7 +47,7 @@ TEST(Resampling, KeepsWhatTheRecordingHolds)
     const auto six = response_of(motion, 6.0);
     EXPECT_NEAR(six.gain, 1.0, 2e-3);
     EXPECT_NEAR(six.lag_s, 0.0, 1e-6);
-    EXPECT_NEAR(motion[1234].z, 1.234, 1e-9); // what grows evenly, grows evenly
+    EXPECT_NEAR(motion[1234].z, 1.234, 1e-9); // even growth stays even
 }
 
 TEST(Smoothing, HalvesThePowerAtItsCutoffWithoutDelay)
@@ -56,7 +56,7 @@ TEST(Smoothing, HalvesThePowerAtItsCutoffWithoutDelay)
         auto motion = resampled(sine(hertz, 1000.0, 8.0), 0.0, 8000);
         smooth(motion, 6.0);
         const auto found = response_of(motion, hertz);
-        // |H|^2 of both passes: 1 / (1 + (f / (1.2465 fc))^4), the bilinear transform's bend apart.
+        // |H|^2 of both passes: 1 / (1 + (f / (1.2465 fc))^4), without the bilinear warping.
         const double expected = 1.0 / (1.0 + std::pow(hertz / (6.0 * 1.24650470277), 4.0));
         EXPECT_NEAR(found.gain, expected, 2e-3) << hertz;
         EXPECT_NEAR(found.gain, gain, 2e-3) << hertz;

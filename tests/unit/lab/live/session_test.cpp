@@ -78,7 +78,7 @@ TEST(LiveSession, ForgetsWhatWasSetLaterOnceSomethingElseIsSetBefore)
     EXPECT_TRUE(session->steps()[0]["settings"].contains("up.loss"));
 }
 
-/// All that the first side and the second did.
+/// Returns all values of the first and the second side.
 std::string bits_of(const virtual_time::Trace& trace)
 {
     std::string bits;
@@ -128,14 +128,14 @@ TEST(LiveSession, SavedAsAnExperimentPlaysTheSameToTheBit)
     again->play_to(20s);
     EXPECT_EQ(again->digest(), session->digest()) << text;
 
-    // hapnet-lab run plays it likewise, and what was changed counts.
+    // hapnet-lab run plays it in the same way, and the changes matter.
     const auto played = virtual_time::play(setting_of(*read));
     const auto unchanged = virtual_time::play(setting_of(of_text()));
     ASSERT_TRUE(played && unchanged);
     EXPECT_NE(bits_of(*played), bits_of(*unchanged));
 }
 
-/// A person moves the hand to and fro, left of the cube, as a mouse does: a place every 16 ms.
+/// A person moves the hand to and fro, left of the cube, as with a mouse: a place every 16 ms.
 void push(Session& session, base::Duration until, bool grips = false)
 {
     for (int i = 0; session.at() < until; ++i) {
@@ -161,7 +161,7 @@ TEST_P(HandOfAPage, IsSavedAsAReplayThatPlaysTheSameToTheBit)
     push(session, 4s);
     session.hand(std::nullopt); // the person lets go
     session.play_to(5s);
-    push(session, 6s, /*grips*/ true); // and comes back, grips, and falls silent
+    push(session, 6s, /*grips*/ true); // comes back, grips, and stops sending
     session.play_to(20s);
     ASSERT_TRUE(session.is_over());
     const auto digest = session.digest();
@@ -229,7 +229,7 @@ TEST(LiveSession, PlaysAsPlayDoes)
     const auto trace = virtual_time::play(setting_of(experiment));
     ASSERT_TRUE(trace);
     const auto session = session_of(experiment);
-    session->play_to(trace->begin + 1s + 500ms); // wherever that is: in mid session
+    session->play_to(trace->begin + 1s + 500ms); // somewhere in mid session
     ASSERT_FALSE(session->is_over());
     std::string text;
     session->watch_peer(0)(text, 0); // a watch begins empty
@@ -325,7 +325,7 @@ TEST(LiveControl, CountsWhatItsPeersDo)
     EXPECT_EQ(statistics["elapsed_s"], 4.0);
     EXPECT_NEAR(statistics["tick"]["count"].get<double>(), 4000.0, 1.0);
     EXPECT_EQ(statistics["tick"]["late_us"]["p99"], 0.0);
-    // In session after a second; a tenth is lost, 20 ms are on their way.
+    // In session after a second. A tenth is lost, and messages take 20 ms.
     EXPECT_NEAR(statistics["messages"]["states_sent"].get<double>(), 3000.0, 100.0);
     EXPECT_NEAR(statistics["messages"]["states_received"].get<double>(), 2680.0, 150.0);
     EXPECT_EQ(statistics["governor"]["force_limit_n"], 3.3);

@@ -13,7 +13,7 @@ TEST(Response, IsTheTimeFromATouchUntilTheOthersBodyMoves)
     Columns left = resting(1000);
     Columns right = resting(1000);
     for (std::size_t i = 200; i < 230; ++i) left.touching[i] = 1;
-    for (std::size_t i = 240; i < 300; ++i) left.touching[i] = 1; // bounces: no tap of its own
+    for (std::size_t i = 240; i < 300; ++i) left.touching[i] = 1; // bounces: not a tap of its own
     for (std::size_t i = 263; i < 1000; ++i) right.body_x[i] = 0.005;
     EXPECT_NEAR(*response_of(left, right, tick_s), 0.063, 1e-12);
 }

@@ -23,7 +23,7 @@ inline constexpr double tick_s = 0.001;
     return side;
 }
 
-/// One that pushes all the time.
+/// A side that pushes all the time.
 [[nodiscard]] inline Columns pushing(std::size_t count, double newtons)
 {
     Columns side = resting(count);

@@ -36,14 +36,14 @@ TEST(Drag, IsTheForceAtATenthOfAMetrePerSecond)
     Columns side = pushing(2000, 1.0);
     for (std::size_t i = 0; i < 2000; ++i) {
         const bool carries = i >= 1000;
-        // 0.1 m/s in the second half; it stands before.
+        // 0.1 m/s in the second half; at rest before.
         side.hip_x[i] = carries ? 0.0001 * static_cast<double>(i - 1000) : 0.0;
         side.hand_force[i] = carries ? -0.8 : -0.1;
     }
     EXPECT_NEAR(*drag_of(side, tick_s), 0.8, 1e-12);
     side.touching.assign(2000, 0);
     EXPECT_FALSE(drag_of(side, tick_s));
-    EXPECT_FALSE(drag_of(pushing(5000, 1.0), tick_s)); // it only stands
+    EXPECT_FALSE(drag_of(pushing(5000, 1.0), tick_s)); // it only rests
     EXPECT_FALSE(drag_of({}, tick_s));
 }
 

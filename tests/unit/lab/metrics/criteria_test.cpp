@@ -42,7 +42,7 @@ TEST(Criteria, OfThePaperAreWhatIsBuiltIn)
     const auto read = experiment::load_criteria("paper", {});
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(*read, Criteria{});
-    // Under the line that says which run wrote it.
+    // Below the line that names the run.
     const std::string_view text = experiment::built_in_criteria().front().text;
     EXPECT_EQ(print_criteria(*read), text.substr(text.find('\n') + 1));
 }

@@ -20,12 +20,12 @@ std::optional<double> taken(const std::vector<std::vector<double>>& work)
 
 TEST(EnergyTaken, IsTheDeepestDeficitOfAllTogether)
 {
-    // Alone the right hand has got 3 J; together they have got 1 J, after the second tick.
+    // Alone the right hand gained 3 J. Together they gained 1 J, after the second tick.
     EXPECT_EQ(taken({{1.0, 1.0, 2.0}, {0.0, -3.0, 0.0}}), 1.0);
     EXPECT_EQ(taken({{1.0, -0.5}, {0.0, 0.0}}), 0.0);
     EXPECT_FALSE(taken({{}, {}}));
     EXPECT_FALSE(taken({}));
-    // A third hand had put in what the right one got.
+    // A third hand put in the energy that the right hand gained.
     EXPECT_EQ(taken({{1.0, 1.0, 2.0}, {0.0, -3.0, 0.0}, {0.0, 0.75, 0.0}}), 0.25);
 }
 
@@ -39,8 +39,8 @@ TEST(EnergyTaken, OfASampledSpringIsWhatItsSamplingMakesUp)
         side[i].on_hand.value.x = -500.0 * depth;
     }
     const Columns columns = columns_of(side);
-    // The force of a tick is that of its beginning: a tick of pressing stores half of 500 N/m *
-    // (50 um)^2 too little, one of releasing gives back as much too much.
+    // The force of a tick is that of its beginning. So a tick of pressing stores half of 500 N/m *
+    // (50 um)^2 too little, and a tick of releasing returns as much too much.
     const double made_up = 200 * 0.5 * 500.0 * 0.00005 * 0.00005;
     EXPECT_NEAR(*taken({columns.work, std::vector<double>(201, 0.0)}), made_up, 1e-12);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Cutoff above_20_hz{20.0, wave_tick_s};
 
-/// Of an analogue Butterworth high-pass, at the frequency to which the bilinear transform maps.
+/// The gain of an analogue Butterworth high-pass at the bilinear transform's frequency.
 double gain(int order, double hertz)
 {
     const double ratio = std::tan(pi * 20.0 * wave_tick_s) / std::tan(pi * hertz * wave_tick_s);
@@ -22,7 +22,7 @@ double gain(int order, double hertz)
 
 TEST(HighPass, PassesASineAsButterworthSays)
 {
-    // Whole periods; what swings in weighs 1 in 60 s / 10 ms.
+    // Whole periods. The transient weighs 1 in 60 s / 10 ms.
     for (const double hertz : {1.0, 5.0, 20.0, 80.0}) {
         const auto vibration = vibration_of(sine(hertz, 60.0), {}, above_20_hz);
         ASSERT_TRUE(vibration);

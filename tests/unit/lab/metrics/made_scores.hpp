@@ -7,7 +7,7 @@
 
 namespace hapnet::lab::metrics {
 
-/// Of a press, all of it as on the perfect network.
+/// The scores of a press exactly as on the perfect network.
 [[nodiscard]] inline Scores perfect()
 {
     Scores scores{.task = device::Task::t2, .scored_share = 1.0};

@@ -58,13 +58,13 @@ TEST(Metrics, FindTheSpringsThatArePressed)
     ASSERT_TRUE(metrics.similarity);
     EXPECT_NEAR(metrics.similarity->share, 1.0, 1e-9);
     EXPECT_EQ(metrics.similarity->lag_s, 0.0);
-    // All but 0.75 s between the presses of either hand.
+    // All of the time except 0.75 s between the presses of either hand.
     EXPECT_NEAR(*metrics.contact_lost[0], 0.75 / 24.75, 1e-12);
 }
 
 TEST(Metrics, SeeASlowTugOfWarAbove2HzAndNotAbove20)
 {
-    // 0.5 N at 4 Hz on L's hand, beside a force of 1 N that stays: 60 s, of which half a second
+    // 0.5 N at 4 Hz on L's hand, beside a constant force of 1 N, for 60 s, of which half a second
     // does not count. The gain is that of an analogue Butterworth filter at 4 Hz over 2 Hz.
     virtual_time::Trace trace = resting(Task::t3, 60500);
     constexpr double pi = 3.14159265358979323846, hertz = 4.0, newtons = 0.5;
@@ -133,7 +133,7 @@ TEST(Metrics, KnowADroppedBodyFromOneThatIsHeld)
     for (std::size_t i = 12000; i < 13500; ++i) trace.sides[1][i].body.value.y = 0.001;
     EXPECT_EQ(metrics_of(trace).drops, 1.0);
     EXPECT_EQ(metrics_of(resting(Task::t4, 27000)).drops, 1.0);
-    EXPECT_FALSE(metrics_of(resting(Task::t4, 9000)).drops); // not played to the end
+    EXPECT_FALSE(metrics_of(resting(Task::t4, 9000)).drops); // it ends too early
 }
 
 TEST(Metrics, SayHowFarABodyIsBeyondTheStaticCube)
@@ -156,7 +156,7 @@ TEST(Metrics, OfMoreThanTwoAreThoseOfTheWorstPairAndOfTheWorstOfARole)
     }
     const Metrics metrics = metrics_of(trace);
     EXPECT_NEAR(metrics.discrepancy_m->mean, 0.003, 1e-15);
-    EXPECT_NEAR(metrics.force_steps[0]->largest_n, 0.2, 1e-15); // the third acts as the first
+    EXPECT_NEAR(metrics.force_steps[0]->largest_n, 0.2, 1e-15); // the third counts like the first
     EXPECT_EQ(metrics.force_steps[1]->largest_n, 0.0);
     EXPECT_FALSE(metrics.turned_apart_rad);
 }
@@ -248,8 +248,8 @@ TEST(Metrics, TakeTheTasksToDoWhatTheirScriptsDo)
         const Metrics metrics = metrics_of(*trace);
         SCOPED_TRACE(device::name_of(task));
         EXPECT_GT(metrics.scored_s, 26.9);
-        // The drag takes their leading hand off the cube.
-        const bool squeezes = task == Task::t3 || task == Task::t7; // of two hands the same
+        // The drag pulls their leading hand off the cube.
+        const bool squeezes = task == Task::t3 || task == Task::t7; // equal for two hands
         const double lost = squeezes ? 0.2 : 0.0;
         for (const auto& side : metrics.contact_lost) EXPECT_LE(side.value_or(0.0), lost);
         for (const auto& side : metrics.overshoot_m) EXPECT_LT(side.value_or(0.0), 1e-4);

@@ -21,7 +21,7 @@ TEST(Precision, FindsTheOrderWithWhichErrorsFall)
         }
         EXPECT_NEAR(*order_of(errors), order, 1e-3);
         EXPECT_NEAR(*order_of(against_finer, 0.2), order, 1e-3);
-        // As if the reference were the truth the errors seem to fall faster.
+        // With the reference taken as the truth, errors seem to fall faster.
         EXPECT_GT(*order_of(against_finer), order + 1e-3);
     }
 }

@@ -15,8 +15,8 @@
 namespace hapnet::lab::metrics {
 namespace {
 
-/// Seed i fails from its own level on, drawn from the core's distribution; `early` of the seeds
-/// fail everywhere.
+/// Seed i fails from its own level on, drawn from the core's distribution. `early` seeds fail
+/// everywhere.
 std::vector<LevelOutcome> drawn(const Psychometric& truth, const std::vector<double>& levels,
                                 std::uint32_t seeds, std::uint64_t run)
 {
@@ -83,7 +83,7 @@ std::vector<double> numbers_in(const std::string& cell)
 
 TEST(Psychometric, FitsTheTableThatPythonFitsToo)
 {
-    // python/hapnet/study fits the answers of people in the same way, and is held against the same
+    // python/hapnet/study fits people's answers in the same way, and is compared with the same
     // table: tests/e2e/study/fit_test.py.
     std::ifstream table{HAPNET_REFERENCE "/psychometric.csv"};
     std::string line;
@@ -110,7 +110,7 @@ TEST(Psychometric, FitsTheTableThatPythonFitsToo)
     EXPECT_EQ(cases, 37);
 }
 
-/// In a number of runs.
+/// Tests over a number of runs.
 class ThresholdInterval : public testing::TestWithParam<std::uint64_t> {
 protected:
     static void expect_to_hold(const Psychometric& truth, const std::vector<double>& levels)
@@ -122,7 +122,7 @@ protected:
             const auto threshold = threshold_of(drawn(truth, levels, seeds, 100 + run), 320.0);
             held += threshold.low <= p50 && threshold.high.value_or(beyond) >= p50 ? 1 : 0;
         }
-        // At 95 % there are fewer in one of 300 cases.
+        // With 95 % coverage, fewer occur in one of 300 cases.
         EXPECT_GE(held, GetParam() == 40 ? 34 : 16);
     }
 };
@@ -134,15 +134,15 @@ TEST_P(ThresholdInterval, HoldsTheTruthInAboutNineteenOfTwentyRuns)
 
 TEST_P(ThresholdInterval, HoldsTheTruthOfASkewedCurve)
 {
-    // As dead reckoning's delay: a slow rise, then a steep end. The fit of a logistic alone is too
-    // low here.
+    // Like the delay limit of dead reckoning: a slow rise, then a steep end. The fit of a logistic
+    // alone is too low here.
     expect_to_hold({.location = 129.0, .scale = 7.0, .core = Core::gumbel}, eight);
 }
 
 TEST_P(ThresholdInterval, HoldsTheTruthWhereLevelsAreTooFarApartToShowTheCurve)
 {
-    // Nearly all seeds change between two levels, as dead reckoning's did with jitter on levels
-    // 0.25 ms apart. The replicates of the fit alone hold the truth in 20 of 40 runs.
+    // Nearly all seeds change between two levels, like those of dead reckoning with jitter at
+    // levels 0.25 ms apart. The replicates of the fit alone contain the truth in 20 of 40 runs.
     expect_to_hold({.location = 4.05, .scale = 0.0125},
                    {3.25, 3.5, 3.75, 4.0, 4.25, 4.5, 4.75, 5.0});
 }

@@ -50,13 +50,13 @@ TEST(Scores, CallStiffnessWrongThatComesLateOrIsTooMuch)
     }
     Metrics felt = due;
     EXPECT_EQ(*scores_of(felt, due).stiffness_error, 0.0);
-    felt.stiffness_n_per_m[2] = {0.0, 0.0}; // as large as is due, a quarter of a period off
+    felt.stiffness_n_per_m[2] = {0.0, 0.0}; // of the right size, a quarter period late
     felt.loss_stiffness_n_per_m[2] = {-200.0, -200.0};
     const Scores late = scores_of(felt, due);
     EXPECT_DOUBLE_EQ(*late.stiffness_ratio[2], 1.0);
     EXPECT_DOUBLE_EQ(*late.stiffness_error, std::sqrt(2.0));
     EXPECT_EQ(*late.slow_stiffness_error, 0.0);
-    felt.stiffness_n_per_m[0] = {1160.0, 1160.0}; // 5.8 times what is due
+    felt.stiffness_n_per_m[0] = {1160.0, 1160.0}; // 5.8 times the right value
     const Scores hard = scores_of(felt, due);
     EXPECT_DOUBLE_EQ(*hard.stiffness_error, 4.8);
     EXPECT_DOUBLE_EQ(*hard.slow_stiffness_error, 4.8);

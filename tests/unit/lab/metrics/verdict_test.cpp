@@ -108,7 +108,7 @@ TEST(Verdict, JudgesVibrationByTheChosenFilter)
 TEST(Verdict, TakesWhatTheTaskDoesNotExerciseAsKept)
 {
     EXPECT_EQ(judge(Scores{.scored_share = 1.0}, criteria()).tier, Tier::good);
-    EXPECT_EQ(judge(Scores{}, criteria()).tier, Tier::unusable); // but a session has to take place
+    EXPECT_EQ(judge(Scores{}, criteria()).tier, Tier::unusable); // except that a session must exist
 }
 
 } // namespace

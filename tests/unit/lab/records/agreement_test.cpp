@@ -10,7 +10,7 @@ namespace {
 // Sums of some thousand numbers near 0.01 in double precision.
 constexpr double rounding = 1e-12;
 
-/// A cube that moves at `speed` m/s and is `delay` behind.
+/// A cube that moves at `speed` m/s, delayed by `delay`.
 auto moving(double speed, base::Duration delay)
 {
     return [=](record::TickRow& row, base::Duration time) {
@@ -106,7 +106,7 @@ TEST(Agreement, IsUnknownWhileBHasNoTicksForMoreThan10Milliseconds)
     Recording b{2};
     a.session(30ms).ticks(0ms, 30ms);
     b.session(30ms).ticks(0ms, 5ms).ticks(14ms, 15ms).ticks(25ms, 30ms);
-    // 0 to 14 ms, where the gap is just 10 ms long, and 25 to 29 ms.
+    // 0 to 14 ms, where the gap is exactly 10 ms long, and 25 to 29 ms.
     EXPECT_EQ(analysis_of(a, b).agreement.scored, 20ms);
 }
 
@@ -122,7 +122,7 @@ TEST(Agreement, IsUnknownWhenTheyNeverRanAtTheSameTime)
     EXPECT_EQ(agreement.overlap, 0.0);
 }
 
-/// Pushes along y with this many newtons; its motors give half of that.
+/// Pushes along y with this force in newtons. The motors give half of it.
 auto pushing(double newtons)
 {
     return [=](record::TickRow& row, base::Duration) {

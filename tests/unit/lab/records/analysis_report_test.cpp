@@ -141,7 +141,7 @@ TEST(Csv, ShowsAMessageAndLeavesCellsEmptyForWhatIsNone)
               "time_s,tick,size_bytes,session,sequence,sent_s,sent_time_s,from");
     EXPECT_EQ(csv_line(row, start, sessions), "0.003000000,0,86,1,9,2.000000000,0.001500000,");
     EXPECT_EQ(csv_line(row, start, {}), "0.003000000,0,86,1,9,2.000000000,,");
-    row.from = 3; // of whom no session is known
+    row.from = 3; // no session of that peer is known
     EXPECT_EQ(csv_line(row, start, sessions), "0.003000000,0,86,1,9,2.000000000,,3");
     std::ranges::fill(row.bytes, std::byte{0});
     EXPECT_EQ(csv_line(row, start, sessions), "0.003000000,0,86,,,,,3");
@@ -180,7 +180,7 @@ TEST(CircleReport, KeepsTheKeysOfTwoAndHasAllOfEachPairBeside)
     EXPECT_NEAR(report["peers"]["3"]["tick"]["rate_hz"].get<double>(), 1000.0, 1e-9);
     EXPECT_EQ(report["valid"], true) << report["invalid_because"];
     EXPECT_TRUE(report["bodies"].empty()) << "the records say no scene";
-    // Every key of two, and of each pair all but the loops, which are of peers.
+    // All keys for two peers; for each pair, all but those of the loops, which belong to peers.
     const json of_two = to_json(Analysis{});
     for (const auto& [key, value] : of_two.items()) {
         EXPECT_TRUE(report.contains(key)) << key;

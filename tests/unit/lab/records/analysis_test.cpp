@@ -17,7 +17,7 @@ std::string refusal(Recording& a, Recording& b)
     return analysis ? "accepted" : analysis.error().message;
 }
 
-/// `late` in the first `ticks` ticks of a second.
+/// Sets `late` in the first `ticks` ticks of a second.
 auto late_in(int ticks, base::Duration late)
 {
     return [=](record::TickRow& row, base::Duration time) {
@@ -124,7 +124,7 @@ TEST(Analysis, ReckonsWithTheSkewOfTheEchoClock)
     const Clock clock = clock_of(row);
     EXPECT_EQ(clock.to_b(start + 10s), start + 18s);
     EXPECT_EQ(clock.to_a(start + 18s), start + 10s);
-    // 10 s before: it was 1 ms less ahead, but for what rounding to whole nanoseconds leaves.
+    // 10 s before: it was 1 ms less ahead, up to rounding to whole nanoseconds.
     EXPECT_LE(std::chrono::abs(clock.to_b(start) - (start + 8s - 1ms)), 1ns);
     EXPECT_LE(std::chrono::abs(clock.to_a(start + 8s - 1ms) - start), 1ns);
     record::SessionRow damaged = row;
@@ -145,7 +145,7 @@ TEST(Analysis, TakesOfInterleavedSessionsThoseOfTheTwo)
     };
     a.session(row(12, 2, 1s)).session(row(13, 3, 2s)).ticks(0ms, 5ms);
     a.session(row(12, 2, 3s)).session(row(13, 3, 4s)).ticks(5ms, 15ms);
-    a.session(row(14, 2, 5s)).ticks(15ms, 18ms); // the other one was restarted
+    a.session(row(14, 2, 5s)).ticks(15ms, 18ms); // the other peer was restarted
     b.session(row(13, 1, 0s)).ticks(0ms, 18ms);
     const auto session = common_session(a.content(), b.content());
     ASSERT_TRUE(session) << session.error().message;
@@ -205,7 +205,7 @@ TEST(Verdict, IsValidWithALatenessOfOneMillisecondAndNotWithOneNanosecondMore)
 
 TEST(Verdict, IsValidWithHalfAPercentOfTheTicksMissedAndNotWithOneMore)
 {
-    // 995 ticks of 1000 were made; B's ticks fill no gap in A.
+    // 995 of 1000 ticks were made. B's ticks fill no gap in A.
     const auto missing = [](std::uint32_t missed) {
         Recording a{1};
         Recording b{2};

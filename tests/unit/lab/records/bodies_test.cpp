@@ -24,14 +24,14 @@ glm::dquat turned(double radians)
     return {std::cos(0.5 * radians), 0.0, std::sin(0.5 * radians), 0.0};
 }
 
-/// Body 0 lies still, and body 2 is `offset` metres along z and `angle` from where it would be.
+/// Body 0 lies still, and body 2 is displaced by `offset` metres along z and `angle`.
 Recording with_two_bodies(int peer_id, double offset, double angle)
 {
     Recording recording{peer_id};
     recording.session(5s).ticks(0s, 2s, Phase::running).ticks(2s, 5s, Phase::hands_off);
     recording.bodies({0, 2}, [&](record::BodyRow& row, base::Duration time) {
         if (row.body == 0) return;
-        // What is left after the hands let go is a tenth.
+        // A tenth remains after the hands let go.
         const double share = time < 2s ? 1.0 : 0.1;
         row.position = {{0.0, 0.0, share * offset}};
         row.orientation = turned(share * angle);
@@ -97,7 +97,7 @@ TEST(Bodies, HaveTheirNamesAndFreedomFromTheScene)
     EXPECT_TRUE(agreement.bodies[1].turned_apart);
 }
 
-/// Peer `first` owns the body for the first second of both hands on, and peer 2 then.
+/// While both hands are on, peer `first` owns the body for the first second, then peer 2 does.
 Recording owned(int peer_id, std::uint16_t first_owner)
 {
     Recording recording{peer_id};
@@ -202,7 +202,7 @@ TEST(Bodies, AreInTheTraceThatMetricsAreTakenOf)
 TEST(Bodies, AreInTheTraceOfMoreThanTwoOnceForEachOfThem)
 {
     auto a = first(), b = second(), c = with_two_bodies(3, -0.005, 0.0);
-    // Of B with each of the others: the sides come in the order of their ids all the same.
+    // B with each of the others. The sides are still in the order of their ids.
     const std::vector<Session> sessions{*common_session(b.content(), c.content()),
                                         *common_session(b.content(), a.content())};
     const virtual_time::Trace trace = trace_of(sessions);

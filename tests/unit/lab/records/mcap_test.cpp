@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// The form of the files. That the readers of others take them: tests/e2e/mcap.
+// The format of the files. tests/e2e/mcap tests that other readers accept them.
 #include "lab/records/mcap.hpp"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ TEST(Mcap, FindsEachMessageByItsIndex)
     std::multiset<std::uint64_t> times;
     for (const Found& one : records_in(inner)) {
         if (one.opcode == 0x06) {
-            chunk = one.content.substr(40); // behind times, sizes, checksum and compression
+            chunk = one.content.substr(40); // after times, sizes, checksum and compression
             EXPECT_EQ(number_at(one.content, 16), chunk.size());
             ++chunks;
         } else if (one.opcode == 0x07) {

@@ -25,7 +25,7 @@ struct TwoRecords {
         return session ? paths_over_time(*session) : PathsOverTime{};
     }
 
-    /// B gets messages 1 to `count`, but those that are lost, after their delays.
+    /// B gets messages 1 to `count`, except the lost ones, after their delays.
     void send(std::uint32_t count, const std::function<bool(std::uint32_t)>& is_lost,
               const std::function<base::Duration(std::uint32_t)>& delay)
     {
@@ -58,7 +58,7 @@ TEST(PathStretches, AreAsLongAsHoldsAHundredOfThemAndFiftyMessagesEach)
 TEST(PathStretches, HaveTheDelaysOfTheMessagesThatWereSentInThem)
 {
     TwoRecords records{1s};
-    // In the i-th tenth of a second the delays are 10 i + 1 to 10 i + 5 ms, each as often.
+    // In the i-th tenth of a second the delays are 10 i + 1 to 10 i + 5 ms, equally often.
     records.send(999, none, [](std::uint32_t k) { return (k / 100) * 10ms + (1 + k % 5) * 1ms; });
     const PathsOverTime paths = records.over_time();
     ASSERT_EQ(paths.a_to_b.stretches.size(), 10U);

@@ -9,7 +9,7 @@
 namespace hapnet::lab::records {
 namespace {
 
-/// What B records when these sequences reach it in this order, each 10 ms after it was sent.
+/// B's record of these sequences in this order, each 10 ms after it was sent.
 Path after_arrivals(std::initializer_list<std::uint32_t> sequences)
 {
     Recording a{1};
@@ -22,7 +22,7 @@ Path after_arrivals(std::initializer_list<std::uint32_t> sequences)
     return analysis_of(a, b).a_to_b;
 }
 
-/// What B records of messages with these delays.
+/// B's record of messages with these delays.
 Path after_delays(std::initializer_list<base::Duration> delays)
 {
     Recording a{1};
@@ -55,7 +55,7 @@ TEST(Path, CountsTheSecondCopyAsADuplicateAndNothingElse)
     EXPECT_EQ(path.loss, 0.0);
 }
 
-// RFC 4737: three packets come later than those with higher numbers.
+// RFC 4737: three packets arrive after packets with higher numbers.
 TEST(Path, CountsAsReorderedWhatComesAfterAHigherSequence)
 {
     const Path path = after_arrivals({1, 2, 3, 7, 8, 9, 10, 4, 5, 6, 11});

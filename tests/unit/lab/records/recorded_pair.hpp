@@ -21,13 +21,13 @@
 
 namespace hapnet::lab::records {
 
-/// Those of an Omni, as far as a session can meet them.
+/// The limits of an Omni, as far as they matter in a session.
 [[nodiscard]] inline device::GovernorLimits limits_of_recorded_pair()
 {
     return {.speed_max_m_per_s = 1.0};
 }
 
-/// Of the peer that keeps the record: as its daemon writes it.
+/// The configuration of the peer that keeps the record, as its daemon writes it.
 [[nodiscard]] inline nlohmann::json config_of(const peer::Settings& settings)
 {
     return {{"peer_id", settings.introduction.id},
@@ -46,7 +46,7 @@ namespace hapnet::lab::records {
 /// Two hands squeeze the cube and sway; side 0 keeps a record as its daemon does.
 class RecordedPair {
 public:
-    /// Changes what the device of side 0 says in a tick, or what a watchdog tells its governor.
+    /// Changes a sample of side 0's device in a tick, or the message of a watchdog to its governor.
     using Fate = std::function<void(int tick, device::Sample& sample, device::Governor& governor)>;
 
     explicit RecordedPair(Fate fate = {}) : fate_{std::move(fate)}
@@ -54,7 +54,7 @@ public:
         record_.config = config_of(peer::settings_of(0));
     }
 
-    /// Its device is stable up to this stiffness, N/m. Before play().
+    /// Its device renders up to this stiffness stably, N/m. Call it before play().
     void render_at_most(double stiffness_max_n_per_m)
     {
         peer::Settings settings = peer::settings_of(0);
@@ -63,7 +63,7 @@ public:
         record_.config["stiffness_max_n_per_m"] = stiffness_max_n_per_m;
     }
 
-    /// They play in this scene. Before play().
+    /// They play in this scene. Call it before play().
     void play_in(const scene::Description& scene)
     {
         for (const std::size_t side : {0U, 1U}) {
@@ -75,7 +75,7 @@ public:
         }
     }
 
-    /// The energy into its hand is limited. Before play().
+    /// Limits the energy into its hand. Call it before play().
     void limit_energy(const device::EnergyLimits& limits)
     {
         device::GovernorLimits all = limits_of_recorded_pair();
@@ -83,7 +83,7 @@ public:
         players_[0].rig = device::Rig{std::make_unique<device::ScriptedHand>(), all};
         record_.config["governor_toml"] = device::print_limits(all);
     }
-    /// The machine stands still for so long before this tick. Before play().
+    /// The machine stands still for this time before this tick. Call it before play().
     void stand_still(int tick, base::Duration duration)
     {
         stall_tick_ = tick;

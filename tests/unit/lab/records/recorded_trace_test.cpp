@@ -6,7 +6,7 @@
 namespace hapnet::lab::records {
 namespace {
 
-/// A peer whose cube moves at 1 m/s from x = `from` at T0, and which wakes so late.
+/// A peer whose cube moves at 1 m/s from x = `from` at T0, and whose ticks are `late`.
 Recording moving(int id, double from, base::Duration woken_late = 0ms)
 {
     Recording recording{id};
@@ -43,7 +43,7 @@ TEST(RecordedTrace, HoldsWhatBothSidesDidWhileBothWereRunning)
     ASSERT_EQ(trace.sides[1].size(), 3000U);
     EXPECT_EQ(trace.sides[0][1500].body.x(), 1.5);
     EXPECT_EQ(trace.sides[1][1500].body.x(), 1.5 - 0.16);
-    EXPECT_EQ(trace.sides[0][1500].on_body.x(), 0.5); // the reaction to what the hand was given
+    EXPECT_EQ(trace.sides[0][1500].on_body.x(), 0.5); // the reaction to the hand's force
     EXPECT_EQ(trace.sides[0][1500].on_hand.x(), -0.4);
     EXPECT_FALSE(trace.sides[0][999].touching);
     EXPECT_TRUE(trace.sides[0][1000].touching);
@@ -57,7 +57,7 @@ TEST(RecordedTrace, TakesBothSidesAtTheSameTimes)
     EXPECT_EQ(trace.begin, 300us); // when both had begun
     ASSERT_EQ(trace.sides[0].size(), 2999U);
     for (std::size_t i = 0; i < trace.sides[0].size(); ++i) {
-        // Straight lines between rows of a straight motion: equal but for rounding.
+        // Straight lines between rows of a straight motion: equal up to rounding.
         ASSERT_NEAR(trace.sides[0][i].body.x(), trace.sides[1][i].body.x(), 1e-12) << i;
     }
 }

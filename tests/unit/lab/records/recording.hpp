@@ -59,8 +59,8 @@ public:
         return ticks(from, to, phase, [](record::TickRow&, base::Duration) {});
     }
 
-    /// Rows of these bodies after each tick that is there by now, which it numbers; `fill` gets
-    /// each and the time of its tick since `start`.
+    /// Adds rows of these bodies after each existing tick, and numbers the ticks. `fill` gets each
+    /// row and the time of its tick since `start`.
     Recording& bodies(const std::vector<std::uint16_t>& numbers, auto&& fill)
     {
         for (std::size_t i = 0; i < content_.ticks.size(); ++i) {

@@ -151,7 +151,7 @@ TEST(ReplayOfARecord, NamesTheKeyThatTheConfigurationLacks)
     const record::Record whole = RecordedPair{}.play(10);
     for (const auto& [key, value] : whole.config.items()) {
         record::Record record = whole;
-        if (key == "stiffness_max_n_per_m") continue; // which older records have not
+        if (key == "stiffness_max_n_per_m") continue; // older records lack it
         record.config.erase(key);
         const auto replayed = replay(record, std::nullopt);
         ASSERT_FALSE(replayed.has_value()) << key;
@@ -171,14 +171,14 @@ TEST(ReplayOfARecord, RefusesNumbersThatNoPeerHas)
     }
 }
 
-// Records of sessions in which something went wrong, and records that are no longer whole.
+// Records of sessions in which something went wrong, and damaged records.
 
 using device::Fault;
 using device::GovernorState;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Something that lasts from one tick until before another.
+/// A change that lasts from one tick until before another.
 template <typename Change>
 RecordedPair::Fate between(int first, int end, Change change)
 {
@@ -223,7 +223,7 @@ TEST(ReplayOfATroubledSession, GivesTheForcesBeforeTheFaultAtItAndAfterIt)
         between(2300, 2450, [](auto& sample) { sample.sequence = 2300; }),
         between(2300, 2310, [](auto& sample) { sample.hip.value.y = no_number; }),
         between(2300, 2301, [](auto& sample) { sample.velocity.value.z = 1.5; }),
-        // A watchdog's word, of which the device knows nothing.
+        // A halt by the watchdog, which the device does not see.
         [](int tick, device::Sample&, device::Governor& governor) {
             if (tick == 2300) governor.latch({Fault::timeout, device::Trip::loop});
         },
@@ -326,8 +326,8 @@ TEST(ReplayOfADamagedRecord, PlaysWhatIsLeftOfOneThatIsCutOffAndSaysThatItIsCutO
     EXPECT_EQ(to_table(*ended).find("stops before"), std::string::npos);
 }
 
-/// A record with one bit of one row turned round, as a disk may give it back; nullopt where the
-/// row itself is refused.
+/// A record with one bit of one row flipped, as by a bad disk; nullopt where the row itself is
+/// refused.
 template <typename Row>
 std::optional<Row> with_bit_flipped(const Row& row, std::size_t byte, unsigned bit)
 {
@@ -365,8 +365,8 @@ TEST(ReplayOfADamagedRecord, SurvivesEveryBitOfATickAndOfAMessage)
             play();
         }
     }
-    // Not those from which no force follows, such as the cube's place or the last digits of a
-    // hand's: 75 of 430 in November 2026.
+    // Not found is damage to values without effect on a force, such as the cube's place or the last
+    // digits of a hand's place: 75 of 430 are found.
     EXPECT_GT(told, 60);
 }
 

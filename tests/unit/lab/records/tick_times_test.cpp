@@ -21,8 +21,8 @@ TEST(TickTimes, AreWhenTicksWereDueButForThoseThatCameTicksLate)
     };
     tick(-1ms, 0ms);
     tick(200us, 90us);
-    tick(1200us, 13400us); // so long it stood still
-    tick(14200us, 500us);  // due before the last one came
+    tick(1200us, 13400us); // the loop stood still for this time
+    tick(14200us, 500us);  // due before the last tick came
     tick(15200us, 60us);
     const std::vector<base::Duration> expected{200us, 14600us, 14700us, 15200us};
     EXPECT_EQ(tick_times(record, start), expected);

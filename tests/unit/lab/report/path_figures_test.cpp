@@ -10,7 +10,7 @@ namespace {
 using records::DelaySpan;
 using records::PathsOverTime;
 
-/// From A to B half is lost in the first second, all in the second; from B to A nothing came.
+/// A to B: half is lost in the first second, all in the second. B to A: nothing arrived.
 PathsOverTime half_then_all()
 {
     return {.stretch_s = 1.0,

@@ -57,7 +57,7 @@ TEST(Report, SaysInASentenceWhatWasPlayed)
     EXPECT_EQ(played("of another version"), R"(["mine."])");
 }
 
-/// The data of the page of a run of this configuration.
+/// The data of the page for a run with this configuration.
 nlohmann::json data_of_run(const std::string& configuration, const std::string& title)
 {
     const nlohmann::json manifest{{"title", title}, {"configuration", configuration}};

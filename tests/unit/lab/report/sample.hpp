@@ -186,7 +186,7 @@ inline std::vector<results::File> as_written(const std::vector<results::File>& f
     return written;
 }
 
-/// The files of the report of these; must be readable.
+/// Returns the files of the report on these files, which must be readable.
 inline std::vector<results::File> report_files(const std::vector<results::File>& files)
 {
     const auto results = read_results(as_written(files));
@@ -207,13 +207,13 @@ inline std::string page_of(const std::vector<results::File>& files)
     return text_of(report_files(files), "report.html");
 }
 
-/// The words and tables of the page of these files, as JSON.
+/// Returns the words and tables of the page for these files, as JSON.
 inline std::string words_of(const std::vector<results::File>& files)
 {
     return test::words_of(page_of(files));
 }
 
-/// A figure of that page; null when it has none of that id.
+/// Returns a figure of that page; null when it has none with that id.
 inline nlohmann::ordered_json figure_of(const std::vector<results::File>& files,
                                         std::string_view id)
 {

@@ -27,7 +27,7 @@ experiment::Experiment claims_of(std::uint32_t seeds, std::uint32_t needed = 200
     return experiment;
 }
 
-/// Every session of the claims, as good as can be.
+/// Every session of the claims, as good as possible.
 ClaimSessions perfect(const experiment::Experiment& experiment)
 {
     ClaimSessions all;
@@ -118,7 +118,7 @@ TEST(ClaimTables, HaveEachNumberWithItsIntervalAndWithHowManySeedsAClaimNeeds)
     const auto rows = numbers_in(tables[2]);
     const TableRow& quantile = rows.at("stiffness at 1 Hz at 300 ms");
     EXPECT_DOUBLE_EQ(*quantile.number("value"), 0.59) << "the tenth of a hundred";
-    // Of a binomial law with 100 and 0.1: at most 4 with 2.4 %, at least 17 with 2.1 %.
+    // By a binomial law with 100 and 0.1: at most 4 with 2.4 %, at least 17 with 2.1 %.
     EXPECT_DOUBLE_EQ(*quantile.number("low"), 0.54);
     EXPECT_DOUBLE_EQ(*quantile.number("high"), 0.66);
     EXPECT_EQ(quantile.number("accept_low"), 0.6);
@@ -146,7 +146,7 @@ TEST(ClaimTables, AreJudgedByWhatNineOfTenSessionsKeep)
         }
         return row_of(experiment, sessions, claim);
     };
-    const Claimed few = spoil(4); // a heavy tail is no verdict on the claim
+    const Claimed few = spoil(4); // a heavy tail does not decide the claim
     EXPECT_EQ(few.verdict, "met");
     EXPECT_EQ(few.value, "1");
     EXPECT_EQ(few.accept, ">= 0.6");

@@ -89,7 +89,7 @@ TEST(Results, LimitsAreThoseOfTheLawByTaskAndOfTheWorst)
     EXPECT_EQ(rows[2].text("task"), "worst");
     EXPECT_EQ(rows[2].number("limit"), rows[0].number("limit"));
     for (const TableRow& row : rows) {
-        // These are neither the tasks nor the criteria that stand against the paper.
+        // These tasks and criteria have no counterpart in the paper.
         EXPECT_EQ(row.text("status"), "");
         EXPECT_EQ(row.text("class"), "");
         EXPECT_EQ(row.number("paper_limit"), std::nullopt);

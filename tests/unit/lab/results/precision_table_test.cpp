@@ -83,7 +83,7 @@ std::optional<TableRow> row_of(const Table& found, std::string_view figure, std:
 
 TEST(PrecisionTable, AreTheErrorOfTheTickAndThatOfTheSeedsTogether)
 {
-    // 10 mm, 2 mm more for every millisecond of tick, and 1 mm more or less by seed.
+    // 10 mm, plus 2 mm for every millisecond of tick, plus or minus 1 mm by seed.
     const auto found = table_of_law(table, [](const experiment::SessionSpec& spec) {
         experiment::PlayedSession played = experiment::known_session(spec);
         const double swing = spec.setting.seed.value() % 2 == 0 ? 1e-3 : -1e-3;
@@ -121,7 +121,7 @@ TEST(PrecisionTable, AreTheErrorOfTheTickAndThatOfTheSeedsTogether)
 
 TEST(PrecisionTable, OfALimitAreItsShiftWithTheTick)
 {
-    // The law fails from about 92 ms on; here a tick of h puts 5 h of delay on top.
+    // The law fails from about 92 ms on. Here a tick of h adds 5 h of delay.
     const auto found = table_of_law(limits, [](const experiment::SessionSpec& spec) {
         experiment::PlayedSession played = experiment::known_session(spec);
         if (delay_ms(spec) > 0.0)

@@ -25,8 +25,8 @@ key = "hands"
 values = ["nominal", "people"]
 )";
 
-/// By how much copies are apart: with people the order of the last two is another, and subject 01
-/// has larger distances than 02.
+/// The distance of the copies. With people the order of the last two differs, and subject 01 has
+/// larger distances than 02.
 double apart_m(const experiment::SessionSpec& spec)
 {
     const bool is_recorded = spec.setting.players[0].way != nullptr;
@@ -88,7 +88,7 @@ TEST(Rankings, CompareTheOrdersOfTheAlgorithms)
     EXPECT_EQ(rows[4].text("rank"), "3");
     EXPECT_EQ(rows[4].text("subjects"), "2");
     EXPECT_EQ(rows[4].text("sessions"), "6");
-    EXPECT_NEAR(*rows[4].number("kendall_tau"), 1.0 / 3.0, 1e-12); // one pair of three turned
+    EXPECT_NEAR(*rows[4].number("kendall_tau"), 1.0 / 3.0, 1e-12); // one pair of three swapped
     // Between subjects: ((0.8 + 1.0) / 2 + 0) / 2 more.
     EXPECT_NEAR(*rows[3].number("mean_mm"), 1.45, 1e-9);
     EXPECT_EQ(rows[4].text("ci_low"), ""); // of two subjects

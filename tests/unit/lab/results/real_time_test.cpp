@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::ordered_json;
 
-/// As the programs write it, as far as it matters: 8 s of P1 with dead reckoning.
+/// The relevant part of the programs' output: 8 s of P1 with dead reckoning.
 RealTimeSession as_written()
 {
     const auto algorithm = peer::load_algorithm("dead-reckoning", {}).value();
@@ -120,7 +120,7 @@ TEST(RealTime, IsComparedWithTheTwinAsItPlays)
     ASSERT_TRUE(result.real_mm && result.virtual_mm);
     EXPECT_EQ(result.real_mm->mean, 9.5);
     EXPECT_EQ(result.real_mm->std, 8.0);
-    // Predicted over 20 ms with at most some m/s^2: a fraction of a millimetre.
+    // Predicted over 20 ms with at most a few m/s^2: a fraction of a millimetre.
     EXPECT_GT(result.virtual_mm->mean, 0.001);
     EXPECT_LT(result.virtual_mm->mean, 1.0);
     EXPECT_TRUE(result.valid());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What a network must offer, of sessions whose limits are known, and the classes of ITU-T Y.1541.
+// The requirements on a network, from sessions with known limits, and the classes of ITU-T Y.1541.
 #include "lab/experiment/text.hpp"
 #include "lab/results/found.hpp"
 #include "lab/results/requirements.hpp"
@@ -53,8 +53,8 @@ metrics::Criteria criteria()
     return known;
 }
 
-/// How bad the network is: 1 at 100 ms, or jitter of 10 ms, or half of all lost, or bursts of 40,
-/// or a message in ten ticks.
+/// The badness of the network: 1 at 100 ms, or jitter of 10 ms, or half of all lost, or bursts of
+/// 40, or one message in ten ticks.
 double badness(const experiment::SessionSpec& spec)
 {
     const emulator::Conditions& up = spec.setting.profile.path.up;
@@ -99,14 +99,14 @@ std::map<std::string, Table> found(const std::vector<std::string>& settings = {}
     return tables;
 }
 
-/// The tables of the experiment as it stands, made once.
+/// All tables of the unchanged experiment, made once.
 const std::map<std::string, Table>& of_all_factors()
 {
     static const auto tables = found();
     return tables;
 }
 
-/// What bears exactly what a class promises, where it promises anything.
+/// A requirement that just accepts the promises of a class.
 Requirement bearing(const NetworkClass& network)
 {
     return {.delay_ms = network.delay_ms,

@@ -23,7 +23,7 @@ experiment::Experiment two_seeds()
         .value();
 }
 
-/// In real time `real_mm` apart, in virtual time 2 mm.
+/// `real_mm` apart in real time, 2 mm apart in virtual time.
 PlayedCell played(double real_mm)
 {
     PlayedCell cell;

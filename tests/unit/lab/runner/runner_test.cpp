@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What a run keeps, reuses and finds, on however many threads.
+// Sessions that a run keeps, reuses and finds, with any number of threads.
 #include "lab/experiment/claims.hpp"
 #include "lab/experiment/text.hpp"
 #include "lab/results/found.hpp"
@@ -254,7 +254,7 @@ TEST_F(SessionFile, KeepsHowFarCopiesAreApartAfterSilence)
     const auto claims =
         experiment::load_experiment("beat", none, {.quick = false, .settings = {"seeds=2"}})
             .value();
-    constexpr double apart_m = 1.0 / 3e4; // no few digits say it
+    constexpr double apart_m = 1.0 / 3e4; // needs all digits
     const auto ends_of_silence = [&](SessionStore& store) {
         Runner runner = runner_of(store, 2);
         runner.play = [&](const experiment::SessionSpec& spec, const std::atomic<bool>&) {

@@ -55,7 +55,7 @@ TEST(Explain, SaysWhatATickTakesAtMost)
     const auto explanation = explain(description, 1ms, true);
     // The cube with the platform, and with the static cube.
     EXPECT_EQ(explanation.bound.contacts, 2U);
-    EXPECT_EQ(explanation.bound.pairs, 8U); // each is looked at four times by a tick that wakes
+    EXPECT_EQ(explanation.bound.pairs, 8U); // a waking tick looks at each pair four times
     const auto text = to_table(explanation);
     EXPECT_TRUE(says(text, "A tick takes at most:\n  8 pairs examined\n")) << text;
     EXPECT_EQ(to_json(explanation)["tick_bound"]["contacts"], 2);

@@ -62,7 +62,7 @@ TEST(OneWorld, IsWhatBaseComesCloseToOnAPerfectNetwork)
     const auto scores =
         scores_of(metrics::metrics_of(*own),
                   make_reference(metrics::metrics_of(*own), metrics::metrics_of(*due)));
-    // Two copies hear of each other a tick late.
+    // Each copy receives the other's state a tick late.
     EXPECT_LT(*scores.stiffness_error, 0.1);
     EXPECT_GT(*scores.stiffness_error, 0.0);
 }

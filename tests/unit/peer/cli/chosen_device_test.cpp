@@ -16,7 +16,7 @@ device::Capabilities that_renders(double stiffness_max_n_per_m)
 
 TEST(NoteOnStiffness, NameBothFiguresAndTheCureWhereTheSceneIsTooStiffAtTheHand)
 {
-    // Twice as far in the scene as at the hand: four times as stiff there.
+    // Motion is doubled in the scene, so the stiffness there is four times as high.
     EXPECT_EQ(note_on_stiffness(that_renders(700.0), {.scale = 2.0}, 500.0),
               "contacts of 500 N/m in the scene, magnified 2.00 times, are 2000 N/m at the hand, "
               "and this device is said to render at most 700 N/m without buzzing: they are felt at "

@@ -9,7 +9,7 @@
 namespace hapnet::peer {
 namespace {
 
-/// What is said to these words, behind a --remote; "" where they are taken.
+/// The refusal of these words, after a --remote; "" where they are accepted.
 std::string refusal_of(std::vector<std::string> words)
 {
     const bool is_session = words.front().starts_with("--");
@@ -28,7 +28,7 @@ void expect_said(const std::string& refusal, const std::vector<std::string>& wor
     }
 }
 
-/// A file that is there as long as this.
+/// A file that exists as long as this object.
 class Written {
 public:
     explicit Written(std::string_view text)

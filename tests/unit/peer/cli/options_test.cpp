@@ -19,7 +19,7 @@ std::string refusal_to(std::vector<std::string> words)
     return cli::refusal_of(parse_command_line, "hapnet-peer", std::move(words));
 }
 
-/// Of a session, behind a --remote.
+/// The refusal of words for a session, after a --remote.
 std::string refusal_to_session(std::vector<std::string> words)
 {
     words.insert(words.begin(), {"--remote", "127.0.0.1:9"});
@@ -154,7 +154,7 @@ TEST(PeerOptions, WantAHandInTheSceneForTheProxyOfTheOtherOne)
         const auto parsed = parse_command_line(typed.words());
         return parsed ? std::string{} : parsed.error().message;
     };
-    EXPECT_EQ(says("base"), ""); // there the other one is but a force
+    EXPECT_EQ(says("base"), ""); // in it the other hand is only a force
     expect_words(says("remote-proxy"), "has room for 1 hands ([hips] count), and 2 peers");
     std::remove(file.c_str());
 }

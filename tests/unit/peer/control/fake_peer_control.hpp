@@ -13,7 +13,7 @@
 
 namespace hapnet::peer {
 
-/// What of its statistics is described.
+/// Described statistics of the fake peer.
 struct FakeStatistics {
     TickReport tick;
 };
@@ -33,10 +33,10 @@ struct FakePeerControl {
     int stops = 0;
     int emergency_stops = 0;
     nlohmann::ordered_json scene{{"name", "paper"}, {"bodies", nlohmann::json::array()}};
-    int frames = 0;   // that were made
-    std::string kept; // what was to be saved last
+    int frames = 0;   // number of frames made
+    std::string kept; // the last name to save
     base::TimePoint kept_from{};
-    std::vector<std::optional<device::HandWish>> hand; // what it was told
+    std::vector<std::optional<device::HandWish>> hand; // requests to the hand
     PeerControl controls(bool has_page)
     {
         PeerControl peer = own_controls();

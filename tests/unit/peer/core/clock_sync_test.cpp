@@ -18,8 +18,8 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{1h};
 
-/// A message of ours at `sent`, `there` on its way to a side whose clock is `ahead`, answered
-/// after `age`, and `back` on the way back.
+/// A message of ours, sent at `sent`, arrives after `there` at a side whose clock is `ahead`, is
+/// answered after `age`, and takes `back` to return.
 ClockSample sample(base::TimePoint sent, base::Duration there, base::Duration back,
                    base::Duration ahead, base::Duration age = 3ms)
 {
@@ -57,8 +57,8 @@ struct Path {
 double ms(base::Duration time) { return 1e3 * base::to_seconds(time); }
 
 /// Two sides as in a session: hellos every 20 ms for a third of a second, silence until the start,
-/// then 1000 messages a second each way, with the echo of the newest that was heard. Each takes
-/// 65 to 95 ms, overtaking others, or is lost.
+/// then 1000 messages a second each way, with the echo of the newest message heard. Each takes 65
+/// to 95 ms, may overtake others, or is lost.
 class JitteryPath {
 public:
     JitteryPath(std::uint64_t seed, double loss, double skew_ppm)
@@ -263,7 +263,7 @@ TEST(ClockSync, NeverStepsOnceItHasSettled)
     base::Duration before = clock.estimate()->offset;
     path.play(clock, 60s, [&](base::Duration) {
         const base::Duration now = clock.estimate()->offset;
-        // Echoes are 10 ms apart, and arrive as far apart as queues make them.
+        // Echoes are sent 10 ms apart, and queues change the distance of their arrivals.
         ASSERT_LE(std::chrono::abs(now - before), 200us);
         before = now;
     });
@@ -317,7 +317,7 @@ TEST(ClockSync, FindsDrawnJumpsBehindQueuesAndDoubtsNothingElse)
         path.least = 1ms + std::chrono::duration_cast<base::Duration>(150ms * draw.uniform(0));
         path.queue = std::chrono::duration_cast<base::Duration>(10ms * draw.uniform(1));
         const double ppm = 100.0 * draw.uniform(2) - 50.0;
-        // From 10 ms beyond what half a round trip and its queues can hide, to half an hour.
+        // From 10 ms above the sum of half a round trip and its queues, to half an hour.
         const double least_s = base::to_seconds(path.least + 2 * path.queue + 60ms);
         const double size_s = least_s * std::pow(1800.0 / least_s, draw.uniform(3));
         const base::Duration jump = base::from_seconds(draw.uniform(4) < 0.5 ? size_s : -size_s);

@@ -21,7 +21,7 @@ scene::HandInput hand_at(glm::dvec3 position, glm::dvec3 velocity = glm::dvec3{0
     return {.position = {position}, .velocity = {velocity}};
 }
 
-/// Pressing toward +x with so much.
+/// Presses toward +x with this force.
 scene::HandTouch pressing(double newtons)
 {
     return {.touching = true, .on_body = {{newtons, 0.0, 0.0}}};
@@ -34,7 +34,7 @@ TEST(FingerFriction, IsASpringAndADamperAlongTheFaceFromWhereTheFingerTouchedFir
     friction.on_touch(pressing(2.0));
     EXPECT_EQ(friction.on_body(hand_at({-0.02, 0.001, 0.0}), {}), base::Force{}); // here
     const base::Force force = friction.on_body(hand_at({-0.018, 0.002, 0.0}, {0.0, 0.0, 0.01}), {});
-    EXPECT_EQ(force.x(), 0.0); // across the face is the world's
+    EXPECT_EQ(force.x(), 0.0); // the world handles the force across the face
     EXPECT_NEAR(force.y(), 500.0 * 0.001, 1e-12);
     EXPECT_NEAR(force.z(), 2.0 * 0.01, 1e-12);
 }
@@ -48,7 +48,7 @@ TEST(FingerFriction, GivesAtMostItsShareOfTheContactsForceAndItsAnchorSlipsAlong
         const base::Force force = friction.on_body(hand_at({0.0, 1e-3 * mm, 0.0}), {});
         EXPECT_NEAR(force.y(), mm == 1 ? 0.5 : 0.6, 1e-12) << mm;
     }
-    // Back by 2.4 mm it is as strong the other way, and not before.
+    // After 2.4 mm backwards the friction is as strong in the other direction, and not before.
     EXPECT_NEAR(friction.on_body(hand_at({0.0, 0.0088, 0.0}), {}).y(), 0.0, 1e-12);
     EXPECT_NEAR(friction.on_body(hand_at({0.0, 0.0076, 0.0}), {}).y(), -0.6, 1e-12);
 }
@@ -105,7 +105,7 @@ TEST(FrictionOfHips, IsReadPrintedAndChecked)
 
 TEST(SceneLift, LetsTwoFingersLiftTheCubeOffThePlatformAndItComesBack)
 {
-    // Both hands in one world; the fingers rub as two peers would have it.
+    // Both hands are in one world. The finger friction is as for two peers.
     const auto description =
         scene::load_scene("lift", [](const std::string& name) -> base::Result<std::string> {
             return base::fail("no file " + name);
@@ -131,7 +131,7 @@ TEST(SceneLift, LetsTwoFingersLiftTheCubeOffThePlatformAndItComesBack)
         return world->body(0).position.y();
     };
     EXPECT_EQ(height_after(0.0, 0.0, 0.0017), 0.0); // squeezed with 0.85 N
-    // What the fingers' springs give way under 0.25 N each: 0.5 mm.
+    // The fingers' springs give way by 0.5 mm under 0.25 N each.
     EXPECT_NEAR(height_after(0.0, 0.030, 0.0017), 0.030, 0.0012);
     EXPECT_NEAR(height_after(0.030, 0.030, 0.0017), 0.0295, 0.0001); // it stays up there
     EXPECT_NEAR(height_after(0.030, 0.0, 0.0017), 0.0, 0.0005);

@@ -39,7 +39,7 @@ public:
     }
     void kill(std::size_t side) { peers[side].reset(); }
 
-    /// As the others of a group are to be told of each other.
+    /// The settings of a peer in a group, with the others' ids.
     [[nodiscard]] Settings settings_of_group(std::size_t side)
     {
         Settings settings = settings_of(side, ++runs_);
@@ -55,7 +55,7 @@ public:
     {
         return paths[from * peers.size() + to];
     }
-    /// Both ways between two.
+    /// Cuts both directions between two peers.
     void cut(std::size_t a, std::size_t b, bool is_cut)
     {
         path(a, b).is_cut = is_cut;
@@ -86,7 +86,7 @@ public:
         for (const auto end = now + duration; now < end;) step();
     }
 
-    /// All play, and hear all others.
+    /// True if all play, and hear all others.
     [[nodiscard]] bool all_play() const
     {
         return std::ranges::all_of(peers, [this](const auto& peer) {
@@ -102,7 +102,7 @@ public:
             return notice.event == event && (about == 0 || notice.about == about);
         });
     }
-    /// How far apart the copies of the body are at most.
+    /// Returns the largest distance between the copies of the body.
     [[nodiscard]] double apart_m() const
     {
         double most = 0.0;
@@ -117,7 +117,7 @@ private:
         std::size_t to = 0, from = 0;
         wire::Datagram datagram;
     };
-    /// Of `other` in the roster of `side`.
+    /// Returns the place of `other` in the roster of `side`.
     [[nodiscard]] static std::size_t place(std::size_t side, std::size_t other)
     {
         return other < side ? other : other - 1;

@@ -218,7 +218,7 @@ TEST(Handshake, DoesNotBelieveAStartThatNoSessionCanHave)
         hello.start = now + away;
         EXPECT_FALSE(handshake.on_hello(hello, now));
         EXPECT_FALSE(handshake.session());
-        hello.start = now - 200h; // long, but within what a program can be asked for
+        hello.start = now - 200h; // long, but allowed by the options
         EXPECT_FALSE(handshake.on_hello(hello, now));
         EXPECT_TRUE(handshake.session());
     }

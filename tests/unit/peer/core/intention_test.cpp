@@ -18,7 +18,7 @@ Intention::Sample at_rest(double hip_m, double force_n)
     return {.hip = {{hip_m, 0.0, 0.0}}, .velocity = {}, .force = {{force_n, 0.0, 0.0}}};
 }
 
-/// Half a second of the same sample.
+/// The intention after half a second of the same sample.
 Intention after(const Intention::Sample& sample, const HandDynamics& dynamics)
 {
     Intention intention{dynamics};
@@ -30,7 +30,7 @@ TEST(Intention, IsBehindTheForceThatHoldsTheHandOff)
 {
     HandDynamics smooth = hand;
     smooth.friction_n = 0.0;
-    // 1 N to the left against 200 N/m: it means to be 5 mm farther right.
+    // 1 N to the left at 200 N/m: the intention is 5 mm farther right.
     EXPECT_NEAR(after(at_rest(0.010, -1.0), smooth).place().x(), 0.015, 1e-9);
     EXPECT_NEAR(after(at_rest(0.010, 0.0), smooth).place().x(), 0.010, 1e-9);
 }

@@ -13,7 +13,7 @@
 
 namespace hapnet::peer {
 
-/// What the path between two handshakes does to each message.
+/// The effect of the path between two handshakes on each message.
 struct Path {
     base::Duration delay_min{};
     base::Duration delay_max{};
@@ -66,7 +66,7 @@ public:
         for (const auto end = now + duration; now < end;) step();
     }
 
-    /// Side's time of day.
+    /// Returns the side's time of day.
     [[nodiscard]] base::TimePoint clock(std::size_t side) const { return now + ahead[side]; }
 
     void kill(std::size_t side) { sides[side].reset(); }
@@ -77,7 +77,7 @@ public:
         sides[side].emplace(self);
     }
 
-    /// Both are in the same session and know the same things of it.
+    /// True if both are in the same session and know the same about it.
     [[nodiscard]] bool agree() const
     {
         if (!sides[0] || !sides[1]) return false;
@@ -86,7 +86,7 @@ public:
         return a && b && a->number == b->number && a->seed == b->seed && a->is_left && !b->is_left;
     }
 
-    /// How far apart the two begin.
+    /// Returns the difference between the two starts.
     [[nodiscard]] base::Duration start_error() const
     {
         return std::chrono::abs((sides[0]->session()->start - ahead[0]) -
@@ -96,7 +96,7 @@ public:
     base::TimePoint now{std::chrono::hours{1}};
     std::array<std::optional<Handshake>, 2> sides;
     std::array<base::Duration, 2> ahead{};
-    std::uint32_t boot = 0; // of both machines, as those that are restarted say it
+    std::uint32_t boot = 0; // of both machines, which reboots change
     std::array<int, 2> hellos{};
 
 private:
@@ -129,7 +129,7 @@ private:
 
     void deliver(std::size_t to)
     {
-        if (!next_[to] || now < *next_[to]) return; // to look through all letters costs
+        if (!next_[to] || now < *next_[to]) return; // looking through all letters is slow
         const auto is_due = [&](const Letter& l) { return l.to == to && l.arrives <= now; };
         std::vector<Letter> due;
         std::copy_if(letters_.begin(), letters_.end(), std::back_inserter(due), is_due);

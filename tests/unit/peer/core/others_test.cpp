@@ -145,7 +145,7 @@ TEST(Others, ThatBeganApartFromAnotherBecomesOneWithItWhereTheEarlierStartCounts
         expect_one_start(group, 1us);
         EXPECT_LE(std::chrono::abs(group.peers[0]->session()->start - earlier), 1us);
         EXPECT_EQ(group.peers[0]->session()->seed, 70 + first);
-        // All know it now: nothing more is said about it.
+        // All know it now, so no further message mentions it.
         const auto hellos = group.peers[0]->counters().hellos;
         group.run_for(2s);
         EXPECT_EQ(group.peers[0]->counters().hellos, hellos);

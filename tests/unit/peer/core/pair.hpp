@@ -68,7 +68,7 @@ public:
         for (const auto end = now + duration; now < end;) step();
     }
 
-    /// Until both play, which takes a second and a few ticks.
+    /// Plays until both run, which takes a second and a few ticks.
     void run_until_started()
     {
         const auto plays = [this](std::size_t side) {
@@ -78,7 +78,7 @@ public:
         EXPECT_TRUE(plays(0) && plays(1));
     }
 
-    /// The state among what a side sent last.
+    /// Returns the state among a side's last messages.
     [[nodiscard]] std::optional<wire::State> state_sent_by(std::size_t side) const
     {
         for (const wire::Message& message : sent[side]) {
@@ -105,7 +105,7 @@ private:
     std::array<std::vector<wire::Datagram>, 2> inboxes_;
 };
 
-/// A hand whose HIP overlaps the cube at the origin by so many metres, from the left.
+/// A hand from the left whose HIP overlaps the cube at the origin by `depth` metres.
 [[nodiscard]] inline Hand pushing(double depth)
 {
     return {.hip = {{-0.025 + depth, 0.0, 0.0}}, .velocity = {}};

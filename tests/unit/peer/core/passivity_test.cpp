@@ -12,9 +12,9 @@ namespace {
 
 constexpr double tick = 1e-3;
 
-/// The energy per whole run that a hand draws from a sampled wall while it moves as
-/// sin(2 pi f t), J: the wall's force is held over each tick; its velocity is the difference of
-/// two samples. 200 ticks; f a multiple of 5 Hz, so that the run is a whole number of periods.
+/// The energy in a whole run that a hand draws from a sampled wall while it moves as sin(2 pi f t),
+/// J: the wall's force is held over each tick; its velocity is the difference of two samples. 200
+/// ticks; f a multiple of 5 Hz, so that the run is a whole number of periods.
 double energy_drawn(const VirtualWall& wall, double port_damping, double frequency)
 {
     constexpr int ticks = 200;
@@ -35,7 +35,7 @@ double energy_drawn(const VirtualWall& wall, double port_damping, double frequen
     return energy;
 }
 
-/// The most over all frequencies below half the sampling rate.
+/// The largest energy over all frequencies below half the sampling rate.
 double most_drawn(const VirtualWall& wall, double port_damping)
 {
     double most = -1e300;
@@ -54,8 +54,8 @@ TEST(Passivity, NoMotionDrawsEnergyFromAWallWithinTheBound)
     }
 }
 
-/// The energy that the fastest motion a sampler can see, to and fro from one sample to the next,
-/// draws per tick, J: where the bound is exact.
+/// The energy per tick that the fastest visible motion draws, to and fro from one sample to the
+/// next, J. There the bound is exact.
 double energy_of_a_zigzag(const VirtualWall& wall, double port_damping)
 {
     const double speed = 2.0 / tick; // between places of +1 and -1

@@ -13,8 +13,8 @@ namespace {
 constexpr base::TimePoint start{1h};
 constexpr ClockEstimate ahead{.offset = 5s}; // of the other side's clock
 
-/// State n of a side that sends one a millisecond, at n ms on this clock, and arrives so much
-/// later.
+/// State n of a side that sends one each millisecond. It is sent at n ms on this clock, and arrives
+/// after `delay`.
 struct Arrival {
     std::uint32_t sequence = 1;
     base::Duration delay{40ms};
@@ -82,7 +82,7 @@ TEST(PathMeter, AgesOnlyTheNewestOfStatesThatArriveTogether)
     for (const Arrival& each : {Arrival{1, 90ms}, Arrival{2, 89ms}, Arrival{3, 90ms}}) {
         hear(meter, each);
     }
-    // From 89 ms to 91 ms: the first state had no time to be the newest in.
+    // From 89 ms to 91 ms. The first state was never the newest for any time.
     const auto in = meter.report().in;
     EXPECT_EQ(in.age.peak_max, 91ms);
     EXPECT_EQ(in.age.mean, 90ms);
@@ -131,7 +131,7 @@ TEST(PathMeter, LearnsOfTheOtherDirectionByEchoes)
     hear_echo(98, -900ms, 960ms); // of a hello before the start
     hear_echo(99, -900ms, 961ms);
     hear_echo(100, 69ms, 1ms);  // was on its way for 30 ms
-    hear_echo(101, 69ms, 2ms);  // the same again, 32 ms old
+    hear_echo(101, 69ms, 2ms);  // of the same message, now 32 ms old
     hear_echo(102, 50ms, 52ms); // an older one: no news
     hear_echo(110, 90ms, 0ms);
     const auto out = meter.report().out;

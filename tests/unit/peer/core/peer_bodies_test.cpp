@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What the states of a session say of several bodies that turn.
+// The states of a session with several rotating bodies.
 #include "scene/text/text.hpp"
 #include "tests/unit/peer/core/pair.hpp"
 
@@ -10,7 +10,7 @@
 namespace hapnet::peer::peer_bodies_test {
 namespace {
 
-/// Two that share three cubes: 0 in the middle, 1 on the left, 2 on the right.
+/// Two peers that share three cubes: 0 in the middle, 1 on the left, 2 on the right.
 Pair pair_with_cubes()
 {
     Pair pair;
@@ -72,7 +72,7 @@ TEST(PeerWithBodies, SaysTheOneThatItPushesAndWhatItHasDoneToIt)
     EXPECT_GT(moved[0], 0);
     // To the right at z > 0: about +y, with a lever of 6 mm.
     EXPECT_NEAR(twisted[1], 0.006 * given[0], 0.2 * 0.006 * given[0]);
-    // The other one follows, orientation and all.
+    // The other peer's body follows, with its orientation.
     pair.step();
     const scene::BodyState here = pair.peers[0]->world().body(1);
     const scene::BodyState there = pair.peers[1]->world().body(1);
@@ -94,7 +94,7 @@ TEST(PeerWithBodies, DropsAStateOfABodyThatIsNotSharedOrTurnsWhereItCannot)
     };
     wire::BodyState body;
     body.body = 1;
-    EXPECT_FALSE(heard(body)); // it can turn, and this does not say how it is
+    EXPECT_FALSE(heard(body)); // it can turn, but the state has no orientation
     body.turning.emplace();
     body.body = 7;
     EXPECT_FALSE(heard(body));

@@ -71,7 +71,7 @@ TEST(PeerSession, GoesOnAloneWithoutForceOrMessagesAfterAGoodbye)
     pair.run_for(50ms);
     EXPECT_TRUE(pair.peers[1]->is_alone());
     EXPECT_TRUE(pair.told(1, Event::left));
-    EXPECT_FALSE(pair.told(1, Event::lost)); // it went; it did not fall silent
+    EXPECT_FALSE(pair.told(1, Event::lost)); // it left; it did not fall silent
     EXPECT_FALSE(pair.ticks[1].permitted);
     EXPECT_FALSE(pair.ticks[1].remote_touching);
     EXPECT_EQ(pair.ticks[1].sequence, 0U);
@@ -258,8 +258,8 @@ TEST(PeerSession, CountsOnWhenALateHelloOfAnEarlierRunMadeItChangeOverAndBack)
     EXPECT_EQ(pair.ticks[1].freshness, 1.0);
 }
 
-// What a run that has ended sent last comes after a word of the next run: it tells a session in
-// which all is settled, and in which nobody is heard.
+// The last messages of an ended run arrive after a message of the next run. They name a session
+// that is settled, but in which no peer is heard.
 TEST(PeerSession, FindsBackToThePresentRunWhenTheFormerOnesLastWordsComeLate)
 {
     for (const std::size_t restarted : {0U, 1U}) {
@@ -294,7 +294,7 @@ TEST(PeerSession, FindsBackToThePresentRunWhenTheFormerOnesLastWordsComeLate)
     }
 }
 
-// The state that a peer sends of its hand and its cube, and its belief of the other's.
+// The state that a peer sends: its hand, its cube, and its belief about the other's.
 
 TEST(PeerState, IsSentEveryTickNumberedFromOne)
 {
@@ -332,7 +332,7 @@ TEST(PeerState, TellsOfHandTouchAndForce)
     EXPECT_NEAR(state->hip.x(), hand.hip.x(), 1e-9);
     EXPECT_EQ(state->hip_velocity, hand.velocity);
     EXPECT_NEAR(pair.ticks[0].touched.on_hand_at_start.x(), -(500 * 0.002 + 2 * 0.125), 1e-12);
-    // What is told and felt is the mean over the tick, as the hand goes on and the cube gives way.
+    // The force sent and felt is the mean over the tick, while hand and cube move.
     auto world = scene::World::freeze(scene::paper_scene()).value();
     world.set_hand(0, {.position = hand.hip, .velocity = hand.velocity});
     world.tick();
@@ -451,7 +451,7 @@ TEST(PeerLedger, HoldsTheTimeIntegralOfTheForceAndTheMotionOfTheHand)
         impulse += pair.ticks[0].touched.on_body.x() * 1e-3;
     }
     pair.hands[0] = {.hip = {{-0.05, 0.0, 0.0}}, .velocity = {}};
-    pair.run_for(300ms); // the cube coasts, and that is this hand's doing too
+    pair.run_for(300ms); // the cube coasts, which counts as this hand's effect, too
     const wire::BodyState body = *pair.state_sent_by(0).value().bodies.first();
     EXPECT_NEAR(static_cast<double>(body.caused_impulse_uns[0]), 1e6 * impulse, 1.0);
     const double moved = pair.peers[0]->body().position.x() - from;
@@ -501,7 +501,7 @@ TEST(PeerHand, ThatNobodyHoldsNeitherFeelsNorMovesAnything)
 {
     Pair pair;
     pair.run_until_started();
-    pair.hands[0] = pushing(0.003); // where an uncalibrated device may say that it is
+    pair.hands[0] = pushing(0.003); // as an uncalibrated device may report
     pair.hands[0].present = false;
     pair.run_for(100ms);
     EXPECT_FALSE(pair.ticks[0].permitted);
@@ -545,7 +545,7 @@ TEST(PeerCounters, TellWhatCouldNotBeUsed)
     const Counters before = peer.counters();
     wire::State state = pair.state_sent_by(1).value();
     const auto give = [&] { peer.on_datagram(wire::encode(state).bytes(), pair.now); };
-    give(); // still on its way to this side: the copy makes that one a duplicate
+    give(); // a reordered state: the copy makes it a duplicate
     give();
     state.session ^= 1U;
     give();

@@ -28,7 +28,7 @@ wire::State state_of(std::uint32_t sequence, base::Duration clock_ahead = {})
     return state;
 }
 
-/// A path of 1000 states a second into a buffer that is asked every millisecond.
+/// A path of 1000 states a second into a buffer that is read every millisecond.
 struct Path {
     PlayoutBuffer buffer;
     std::multimap<base::TimePoint, wire::State> on_their_way;
@@ -82,7 +82,7 @@ TEST(PlayoutBuffer, PlaysInOrderAndEvenlyWhatSwings)
         const base::Duration ipdv = (at - state.sent) - (before_at - before.sent);
         if (ipdv < -200us || ipdv > 200us) ++uneven;
     }
-    // A state that is late, 1 in 100, is a change and so is the next.
+    // A late state, 1 in 100, makes a change, and so does the next.
     EXPECT_LE(uneven, path.played.size() * 3 / 100);
     EXPECT_LE(disordered, path.played.size() * 15 / 1000);
     EXPECT_LE(path.late, path.played.size() * 15 / 1000);

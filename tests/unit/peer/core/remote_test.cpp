@@ -43,7 +43,7 @@ TEST(Remote, KeepsTheNewestBodyThroughStatesWithoutOne)
     remote.forget_state();
     EXPECT_FALSE(remote.body());
     EXPECT_FALSE(remote.arrived());
-    EXPECT_TRUE(remote.update(state_number(1), start + 2ms)); // numbers start anew
+    EXPECT_TRUE(remote.update(state_number(1), start + 2ms)); // numbers start again
 }
 
 wire::BodyState pushed(std::uint16_t id, std::uint32_t given_uns)
@@ -62,7 +62,7 @@ TEST(Remote, KeepsEachBodyAndKnowsTheOneThatWasPushedLast)
     wire::State state = state_number(1);
     state.touching = true;
     state.bodies.add(pushed(2, 500));
-    state.bodies.add(pushed(5, 0xffff'fff0)); // it grows beyond 2^32
+    state.bodies.add(pushed(5, 0xffff'fff0)); // the sum exceeds 2^32
     remote.update(state, start);
     EXPECT_EQ(remote.bodies_known(), 2U);
     state.sequence = 2;
@@ -110,7 +110,7 @@ TEST(Remote, CountsFromArrivalsThatNeverRunBackwards)
 {
     Remote remote{{}};
     remote.update(state_number(1), start + 100ms);
-    remote.update(state_number(2), start); // its stamp says earlier
+    remote.update(state_number(2), start); // its stamp is earlier
     EXPECT_EQ(remote.arrived(), start + 100ms);
 }
 

@@ -71,7 +71,7 @@ TEST(SendGate, SaysNothingOfAHandThatGoesOnAsItDid)
     hand.state.contact_force = {{1.0, 0.0, 0.0}};
     for (int tick = 0; tick < 200; ++tick) {
         hand.state.hip = {{0.2e-3 * tick, 0.0, 0.0}};
-        // But for the first, and for being silent for 50 ms.
+        // Except the first state, and those after 50 ms of silence.
         EXPECT_EQ(hand.next(), tick % 50 == 0 ? SendCause::silence : SendCause::held_back) << tick;
     }
 }
@@ -91,8 +91,8 @@ TEST(SendGate, SaysWhatThePredictionMisses)
         state.touching = touching;
         return state;
     };
-    // After 1 ms of 0.1 m/s and 1 N: the hand is expected 0.1 mm further. 8 % of 0.1 m/s is
-    // 8 mm/s, and 8 % of 1 N is 80 mN; of the way 0.1 mm is the floor.
+    // After 1 ms of 0.1 m/s and 1 N: the hand is expected 0.1 mm further. 8 % of 0.1 m/s is 8 mm/s,
+    // and 8 % of 1 N is 80 mN; the least deadband of a distance is 0.1 mm.
     const std::array cases{
         Case{SendCause::contact, at(0.1e-3, 0.1, 1.0, true), at(0.1e-3, 0.1, 1.0, false)},
         Case{SendCause::force, at(0.1e-3, 0.1, 1.081, false), at(0.1e-3, 0.1, 1.079, false)},
@@ -123,7 +123,7 @@ TEST(SendGate, HasFloorsForSmallSignals)
     EXPECT_EQ(hand.next(), SendCause::velocity);
 }
 
-/// Two that send so.
+/// Two peers with this send policy.
 Pair pair_that_sends(std::string_view text)
 {
     Pair pair;
@@ -156,7 +156,7 @@ TEST(PeerThatSendsLess, TellsOfBodiesThatRestWithinASecond)
 {
     Pair pair = pair_that_sends("deadband:8%,100ms");
     pair.run_until_started();
-    pair.run_for(2s); // for what has moved before to be told
+    pair.run_for(2s); // until earlier motion was sent
     int bodies = 0;
     for (int ms = 0; ms < 1000; ++ms) {
         pair.step();

@@ -28,7 +28,7 @@ struct Stream {
     {
         return guard_start + number * 1ms + delay;
     }
-    /// Whether it is admitted; then it counts.
+    /// Returns whether the state is admitted, and then counts it.
     bool give(std::uint32_t number)
     {
         const bool admitted = guard.admits(state(number), arrival(number));
@@ -72,7 +72,7 @@ TEST(SequenceGuard, IsNotLedAwayByForgedStatesThatItAdmits)
     std::uint32_t most = 0;
     for (std::uint32_t number = 1001; number < 4000; ++number) {
         ASSERT_TRUE(stream.give(number));
-        if (number % 100 != 0) continue; // ten a second, each as far ahead as is admitted
+        if (number % 100 != 0) continue; // ten a second, each as far ahead as the guard admits
         wire::State forged = Stream::state(number);
         while (forged.sequence += 1, stream.guard.admits(forged, stream.arrival(number))) {}
         forged.sequence -= 1;
@@ -90,13 +90,13 @@ TEST(SequenceGuard, AdmitsWhatAnHonestSideAndAnHonestPathDo)
     EXPECT_TRUE(stream.give(490)); // twice
     stream.delay = 5ms;            // another path
     stream.give_all(501, 700);
-    stream.delay = 2s; // a queue fills; meanwhile nothing comes
+    stream.delay = 2s; // a queue fills, and nothing arrives
     stream.give_all(701, 2000);
     for (std::uint32_t number = 2001; number < 6000; ++number) { // ... and empties
         stream.delay = std::max<base::Duration>(5ms, stream.delay - 500us);
         ASSERT_TRUE(stream.give(number)) << number;
     }
-    // A loop that stood still for 2 s numbers on: its stamps have run ahead of its numbers.
+    // A loop that stood still for 2 s continues its numbers, so its stamps are ahead of them.
     wire::State late = Stream::state(6000);
     late.sent += 2s;
     EXPECT_TRUE(stream.guard.admits(late, stream.arrival(8000)));

@@ -20,7 +20,7 @@ std::string refusal_of(const scene::Description& scene)
     return body ? "" : body.error().message;
 }
 
-/// The paper's with so many movable bodies, which may all turn.
+/// The paper's scene with `movable` movable bodies, which may all rotate.
 scene::Description scene_of(std::size_t movable)
 {
     scene::Description scene = scene::paper_scene();

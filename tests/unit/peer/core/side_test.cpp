@@ -11,7 +11,7 @@
 namespace hapnet::peer {
 namespace {
 
-/// Two sides whose hands squeeze the cube, and what each was asked to do.
+/// Two sides whose hands squeeze the cube, and the commands to each.
 class SidePair {
 public:
     struct Rig {
@@ -60,7 +60,7 @@ public:
             sides[side].step(now, rigs[side]);
         }
     }
-    /// Until both have felt the other for long enough that the governors let all pass.
+    /// Plays until both have felt the other so long that the governors pass the whole force.
     void run_until_pushing()
     {
         while (sides[0].tick().phase != Phase::running) step();
@@ -141,7 +141,7 @@ TEST(Side, SaysTheWorkOfItsHandOnTheDevice)
     pair.step();
     const std::uint32_t before = said();
     double work_j = 0.0;
-    for (int tick = 0; tick < 20; ++tick) { // the hand goes on against the force
+    for (int tick = 0; tick < 20; ++tick) { // the hand moves on against the force
         const base::Force told = pair.sides[0].told();
         pair.rigs[0].hand().sample.hip.value.x += 1e-4;
         pair.step();

@@ -37,14 +37,14 @@ TEST(TickCount, FollowsTheStampsOfWhoSendsInFewerTicks)
     for (std::uint32_t message = 0; message < 1000; ++message) {
         const base::Duration since_first = 10ms * message;
         const std::uint32_t tick = count.of(state_of(message + 1, 1s + since_first), 1ms).number;
-        // Until it is known that messages are held back, 50 ticks and a tenth, numbers are ticks.
+        // Numbers count as ticks for 50 ticks and a tenth, until held-back messages are noticed.
         if (message > 6) {
             EXPECT_EQ(tick, 1 + 10 * message) << message;
         } else if (message < 6) {
             EXPECT_EQ(tick, 1 + message) << message;
         }
     }
-    // Two of three messages are lost: one still is 10 ms.
+    // Two of three messages are lost. One message still means 10 ms.
     EXPECT_EQ(count.of(state_of(1003, 1s + 10ms * 1002), 1ms).span, 10ms);
     count.forget();
     EXPECT_EQ(count.of(state_of(3, 2s), 1ms).number, 3U);

@@ -82,7 +82,7 @@ TEST(DeviceTimer, FollowsAClockThatIsATenThousandthOffWithoutCallingItLate)
             const auto time = timer.at(began + cycle * period);
             ASSERT_TRUE(time) << cycle;
             ASSERT_EQ(time->missed_before, 0U) << cycle;
-            ASSERT_LE(time->late, 3200ns) << cycle; // 32 times what it is off by in a cycle
+            ASSERT_LE(time->late, 3200ns) << cycle; // 32 times its error in a cycle
         }
     }
 }

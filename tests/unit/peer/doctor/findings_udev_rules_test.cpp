@@ -33,7 +33,7 @@ std::string value_of(const std::string& rule, const std::string& key)
     return rule.substr(begin, rule.find('"', begin) - begin);
 }
 
-/// As udev reads it: alternatives of a shell's patterns.
+/// True if a name matches, as udev reads patterns: alternatives of shell patterns.
 bool matches(const std::string& pattern, const std::string& text)
 {
     std::istringstream alternatives{pattern};

@@ -28,7 +28,7 @@ Facts a_good_machine()
     return facts;
 }
 
-/// The finding on a subject after one thing of a good machine was changed.
+/// The finding on a subject after a single change on a good machine.
 template <typename Change>
 Finding finding_on(const char* subject, Change change)
 {
@@ -40,7 +40,7 @@ Finding finding_on(const char* subject, Change change)
     return {"none", Level::ok, "", ""};
 }
 
-/// A root of a file system with what a test puts into it.
+/// A root of a file system with the files of a test.
 class FakeRoot : public ::testing::Test {
 protected:
     FakeRoot()
@@ -172,7 +172,7 @@ TEST_F(FakeRoot, FindsDevicesAndWhetherTheyMayBeOpened)
     put("dev/hidraw3", "");
     put("sys/class/hidraw/hidraw4/device/uevent", "HID_ID=0003:0000046D:0000C077\n"); // a mouse
     put("sys/class/hidraw/hidraw5/device/uevent", "HID_ID=00");
-    // Not in the rules, but with a Set Effect report in what it says of itself.
+    // Not in the rules, but with a Set Effect report in its descriptor.
     put("sys/class/hidraw/hidraw6/device/uevent", "HID_ID=0003:0000EB03:00002402\n");
     put("sys/class/hidraw/hidraw6/device/report_descriptor", "\x05\x0f\x09\x21\xa1\x02\xc0");
     const Facts found = facts();

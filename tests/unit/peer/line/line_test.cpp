@@ -34,7 +34,7 @@ secure::Place place_of(std::uint8_t number)
 
 struct Keyed {
     std::uint8_t id = 1;
-    std::uint8_t circle = 7; // whose keys it has
+    std::uint8_t circle = 7; // names its keys
     std::uint32_t run = 11;
 };
 
@@ -66,7 +66,7 @@ wire::Datagram hello_of(std::uint16_t id, std::uint32_t run)
     return wire::encode(hello);
 }
 
-/// Two lines, 5 ms apart: what a side is given to say in a tick, and what it has heard.
+/// Two lines, 5 ms apart, with each side's messages to send in a tick, and those received.
 class LinePair {
 public:
     LinePair(Line a, Line b) : lines_{std::move(a), std::move(b)} {}
@@ -85,7 +85,7 @@ public:
             for (const std::size_t side : {0U, 1U}) step(side);
         }
     }
-    /// Gives a datagram to a side as if it came from there.
+    /// Gives a datagram to a side, as if it came from `place`.
     bool give(std::size_t to, const Bytes& datagram, const secure::Place& from)
     {
         const auto message = lines_.at(to).open(datagram, from, now_);

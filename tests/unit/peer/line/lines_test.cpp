@@ -31,7 +31,7 @@ secure::Secret drawn(std::uint8_t number)
     return secret;
 }
 
-/// The lines of peer `id` of three to the others.
+/// The lines of peer `id`, one of three, to the others.
 Lines keyed_lines(std::uint8_t id, std::uint32_t run)
 {
     secure::prepare();
@@ -52,7 +52,7 @@ Lines keyed_lines(std::uint8_t id, std::uint32_t run)
     return Lines{std::move(lines)};
 }
 
-/// The hello that peer `id` of three says to each of the others.
+/// The hello of peer `id`, one of three, to each of the others.
 wire::Datagram hello_of_peer(std::uint16_t id, std::uint32_t run)
 {
     wire::Hello hello;
@@ -63,7 +63,7 @@ wire::Datagram hello_of_peer(std::uint16_t id, std::uint32_t run)
     return wire::encode(hello);
 }
 
-/// Three peers with keys, 1 ms apart. All messages come from a place that nobody knows.
+/// Three peers with keys, 1 ms apart. All messages come from an unknown address.
 struct Triple {
     struct Letter {
         std::size_t to = 0;
@@ -128,7 +128,7 @@ TEST(Lines, WithoutKeysKnowTheOthersByTheirPlacesAndCountStrangersOnce)
 TEST(Lines, WithKeysKnowTheOthersByTheirKeysWhereverTheyAre)
 {
     Triple triple;
-    triple.run(300ms); // each has spoken with each
+    triple.run(300ms); // each pair has exchanged messages
     for (std::size_t peer = 0; peer < 3; ++peer) {
         for (std::size_t line = 0; line < 2; ++line) {
             EXPECT_EQ(triple.peers.at(peer)[line].news(), News::sealed) << peer << ' ' << line;
@@ -148,8 +148,8 @@ TEST(Lines, WithKeysKnowTheOthersByTheirKeysWhereverTheyAre)
 
 TEST(Lines, GoOnWithOneOfTheirKeysInATick)
 {
-    // A side that hears nothing begins one handshake with each other, and each takes several
-    // multiplications: were all tended at once, both beginnings would leave in the same tick.
+    // A side that hears nothing begins one handshake with each other peer, and each takes several
+    // multiplications. Handled at once, both beginnings would leave in the same tick.
     Lines lone = keyed_lines(1, 10);
     std::vector<std::vector<std::size_t>> began;
     for (base::TimePoint now{1000s}; now < base::TimePoint{1000s} + 50ms; now += 1ms) {

@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A device whose buttons the test presses, and what it was told last.
+/// A device with the test's buttons, and its last force.
 class ButtonDevice final : public device::Device {
 public:
     [[nodiscard]] const device::Identity& identity() const override { return identity_; }
@@ -35,11 +35,11 @@ private:
     device::Capabilities can_{.force_max_n = 3.3};
 };
 
-/// A loop of which only the way of a force of 1 N to the right is left.
+/// The path of a force of 1 N to the right through a loop, without the rest of the loop.
 struct Loop {
     explicit Loop(DeadMan dead_man = {}) : gate{stop, std::move(dead_man)} {}
 
-    /// One tick; the force that the device is told then.
+    /// Plays one tick. Returns the force that the device gets.
     double tick()
     {
         now += 1ms;
@@ -108,7 +108,7 @@ TEST(ForceGate, OpensOnlyWhileADeviceButtonIsHeld)
     for (int ms = 0; ms < 100; ++ms) most = std::max(most, loop.tick());
     EXPECT_LT(most, 0.1) << "a moment's release does not make the force jump back";
     EXPECT_GT(loop.run_for(2s), 0.9);
-    loop.device().sample.fault = device::Fault::timeout; // it does not say whether it is held
+    loop.device().sample.fault = device::Fault::timeout; // the button's state is unknown
     EXPECT_EQ(loop.tick(), 0.0);
 }
 

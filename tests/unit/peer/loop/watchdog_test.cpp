@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A device whose apply() hangs until it is let go.
+/// A device whose apply() hangs until it is released.
 class HangingDevice final : public device::Device {
 public:
     [[nodiscard]] const device::Identity& identity() const override { return identity_; }
@@ -23,7 +23,7 @@ public:
     void halt() noexcept override { halts_.release(); }
 
     void let_go() { let_go_.release(); }
-    /// Waits for so many more words of halt(); false when they do not come.
+    /// Waits for `times` more calls of halt(). Returns false when they do not come.
     [[nodiscard]] bool is_halted(int times)
     {
         for (int i = 0; i < times; ++i) {
@@ -59,7 +59,7 @@ TEST(Watchdog, LetsGoOfADeviceInWhoseApplyTheLoopHangs)
         device.apply({});
         watchdog.rest();
     }};
-    EXPECT_TRUE(device.is_halted(3)); // again and again, as a wire may lose a word
+    EXPECT_TRUE(device.is_halted(3)); // repeatedly, because a command may be lost
     EXPECT_GE(net::monotonic_now() - begin, 20ms + 2 * Watchdog::halt_every);
     EXPECT_EQ(watchdog.halts(), 1U);
     bool is_fault = false;
@@ -67,7 +67,7 @@ TEST(Watchdog, LetsGoOfADeviceInWhoseApplyTheLoopHangs)
     EXPECT_TRUE(is_fault);
     EXPECT_GT(net::monotonic_now() - begin, 100ms);
     EXPECT_TRUE(device.is_halted(3));
-    EXPECT_FALSE(watchdog.take_fault()); // told once
+    EXPECT_FALSE(watchdog.take_fault()); // reported once
     EXPECT_EQ(watchdog.halts(), 1U);     // one silence
     device.let_go();
     loop.join();
@@ -80,7 +80,7 @@ TEST(Watchdog, LeavesALoopAloneThatHasNotBegunOrHasEnded)
         Watchdog watchdog{device};
         watchdog.beat(net::monotonic_now());
         watchdog.rest();
-    } // its end waits for its next look
+    } // the destructor waits for the next look
     EXPECT_FALSE(device.was_halted());
 }
 
@@ -91,7 +91,7 @@ TEST(Watchdog, NoticesTheNextSilenceAsWell)
     watchdog.beat(net::monotonic_now());
     EXPECT_TRUE(device.is_halted(1));
     watchdog.rest();
-    // Until it has looked again, and seen the rest.
+    // Waits until it has looked again, and seen the rest.
     net::sleep_until(net::monotonic_now() + 2 * Watchdog::halt_after);
     while (device.was_halted()) {}
     watchdog.beat(net::monotonic_now());

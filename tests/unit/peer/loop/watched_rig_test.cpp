@@ -10,7 +10,7 @@
 namespace hapnet::peer::loop {
 namespace {
 
-/// A device that the force reaches late: not before it has been let go of.
+/// A device that gets the force late: only after the watchdog released it.
 class LateDevice final : public device::Device {
 public:
     enum class Word : std::uint8_t { none, apply, halt };
@@ -21,7 +21,7 @@ public:
     void apply(const device::GovernedForce& /*force*/) override
     {
         last_word_.wait(Word::none);
-        watchdog->rest(); // it says no more: the rest is the rig's to do
+        watchdog->rest(); // the watchdog stops, and the rig must do the rest
         last_word_ = Word::apply;
     }
     void halt() noexcept override

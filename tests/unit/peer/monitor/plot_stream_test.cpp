@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{81'230s};
 
-/// Who listens, and what a stream to it has sent.
+/// A listener, and the datagrams of a stream to it.
 class PlotStreamTest : public ::testing::Test {
 protected:
     [[nodiscard]] std::vector<nlohmann::json> received()

@@ -29,7 +29,7 @@ device::Capabilities an_omni()
     return can;
 }
 
-/// A test of one step, in virtual time at 1 kHz, whose device applies what is wanted at once.
+/// A test of one step, in virtual time at 1 kHz. Its device applies each force at once.
 class Played {
 public:
     explicit Played(const std::string& step, bool is_real = true)
@@ -52,7 +52,7 @@ public:
             most_n = std::max(most_n, base::norm(request.wanted));
         }
     }
-    /// That of the step, after its end.
+    /// Returns the outcome of the step, after its end.
     [[nodiscard]] Outcome outcome()
     {
         test_.stop();
@@ -218,7 +218,7 @@ TEST(SelfTest, FailsAForceThatOutlastsTheButton)
     force.play(1ms);
     force.input.sample.gripping = true;
     force.play(1s);
-    force.ignores_forces = true; // it stays
+    force.ignores_forces = true; // the force stays
     force.input.sample.gripping = false;
     force.play(200ms);
     force.input.sample.gripping = true;

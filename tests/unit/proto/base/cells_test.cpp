@@ -11,7 +11,7 @@ namespace {
 
 using Lines = std::vector<std::vector<std::string>>;
 
-/// All lines of a text; an empty list in place of one that is refused.
+/// All lines of a text; an empty list if the text is refused.
 Lines lines_of(std::string_view text, CellStyle style)
 {
     Lines lines;

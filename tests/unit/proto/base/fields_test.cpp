@@ -123,7 +123,7 @@ TEST(Fields, AreReadByTheirKeysAndKeepTheirDefaults)
     EXPECT_EQ(horse->risk, 5_percent);
     EXPECT_EQ(horse->laps, (std::vector{1.5, 2.0}));
     EXPECT_EQ(horse->rider.mass_kg, 60.0);
-    EXPECT_EQ(horse->saddle.straps, 3U); // a part's fields stand among those of the whole
+    EXPECT_EQ(horse->saddle.straps, 3U); // the fields of a part are among those of the whole
     EXPECT_TRUE(horse->shod);
     EXPECT_FALSE(horse->rider.reaction);
 }
@@ -197,7 +197,7 @@ TEST(Fields, AreTheObjectOfJson)
     EXPECT_EQ(json_of(std::numeric_limits<double>::quiet_NaN()).dump(), "null");
 }
 
-/// What a struct tells: times in the unit of the key above them, and what it computes.
+/// A struct with output descriptions: times in the unit of the key above them, and computed values.
 struct Times {
     Duration best{};
     std::optional<Duration> worst;

@@ -53,7 +53,7 @@ TEST(LineReader, CountsTheLinesWithinQuotes)
 TEST(Shortened, ShowsNothingThatATerminalWouldAct)
 {
     EXPECT_EQ(shortened("f\x81r \x1b[2J"), "f\\x81r \\u001B[2J");
-    // It does not cut within a character.
+    // A character is never cut.
     EXPECT_EQ(shortened(std::string(39, 'a') + "ü" + "b"), std::string(39, 'a') + "...");
 }
 

@@ -60,8 +60,8 @@ TEST(Math, LogOfWhatHasNoneIsInfiniteOrNotANumber)
 
 TEST(Math, HasTheSameBitsWithEveryCompilerAtEveryOptimisationLevel)
 {
-    // FNV-1a over the bits of all results: changes when one bit of one of them does. The release,
-    // debug, asan and tidy presets compare GCC and Clang, optimised and not.
+    // FNV-1a over the bits of all results. A change of one bit changes it. The release, debug, asan
+    // and tidy presets compare GCC and Clang, optimised and not.
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&hash](double value) {
         hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3;
@@ -94,7 +94,7 @@ TEST(Math, LogarithmAndNormalDistributionHaveTheSameBitsWithEveryCompilerToo)
 TEST(Math, SinesOfTurnsAreSinesWithTheSameBitsWithEveryCompiler)
 {
     std::uint64_t hash = 0xcbf29ce484222325;
-    constexpr int count = 7; // some of them in lanes and some not
+    constexpr int count = 7; // some are computed in lanes, some alone
     std::array<double, count> turns{};
     for (int i = -20'000; i <= 20'000; ++i) {
         for (int j = 0; j < count; ++j)
@@ -103,7 +103,7 @@ TEST(Math, SinesOfTurnsAreSinesWithTheSameBitsWithEveryCompiler)
         sines_of_turns(turns);
         for (int j = 0; j < count; ++j) {
             const auto place = static_cast<std::size_t>(j);
-            // Whole turns are taken off exactly; the rest is good to 5e-16, std::sin to 1e-16.
+            // Whole turns are subtracted exactly. The rest is exact to 5e-16, std::sin to 1e-16.
             const double part = given[place] - std::round(given[place]);
             ASSERT_NEAR(turns[place], std::sin(two_pi * part), 6e-16) << given[place];
             hash = (hash ^ std::bit_cast<std::uint64_t>(turns[place])) * 0x100000001b3;

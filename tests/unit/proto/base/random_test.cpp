@@ -10,8 +10,8 @@ namespace {
 
 using Words4 = std::array<std::uint32_t, 4>;
 
-/// Philox-4x32-10 written down again from the paper (Salmon et al., SC 2011), so that a stream
-/// is checked against the algorithm and not against the library it uses.
+/// Philox-4x32-10, written again from the paper (Salmon et al., SC 2011), so that a stream is
+/// checked against the algorithm and not against the library that it uses.
 Words4 philox(Words4 counter, std::uint64_t key)
 {
     auto key0 = static_cast<std::uint32_t>(key);

@@ -33,8 +33,8 @@ TEST(Visible, ShowsBytesThatAreNotUtf8)
                       "31m"),
               "\\x9B31m");
     EXPECT_EQ(visible("\xc3"), "\\xC3");                   // cut off
-    EXPECT_EQ(visible("\xc0\xaf"), "\\xC0\\xAF");          // longer than need be
-    EXPECT_EQ(visible("\xed\xa0\x80"), "\\xED\\xA0\\x80"); // half of a pair
+    EXPECT_EQ(visible("\xc0\xaf"), "\\xC0\\xAF");          // an overlong encoding
+    EXPECT_EQ(visible("\xed\xa0\x80"), "\\xED\\xA0\\x80"); // half of a surrogate pair
     EXPECT_EQ(visible("\xf5\x80\x80\x80"), "\\xF5\\x80\\x80\\x80");
 }
 

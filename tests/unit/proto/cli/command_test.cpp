@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A program that does something by itself, and has two commands.
+/// A program that works without a command, and has two commands.
 struct Relay {
     Command program{"relay", "Relays"};
     base::Duration delay{};
@@ -56,7 +56,7 @@ struct Relay {
     }
 };
 
-/// One whose first word is an argument, and that does nothing without a command.
+/// A program whose first word is an argument, and that needs a command.
 struct Control {
     Command program{"control", "Controls"};
     std::string socket;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* written = R"({"title":"Numbers"})";
 
-/// What `program schema WORD` prints, or the error.
+/// Returns the output of `program schema WORD`, or the error.
 std::string said_to(std::string word)
 {
     Command program{"program"};

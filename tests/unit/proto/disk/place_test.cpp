@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own, with what another user may have put into it.
+/// A folder for each test, with files that another user may have put into it.
 class PlaceTest : public testing::Test {
 protected:
     PlaceTest()

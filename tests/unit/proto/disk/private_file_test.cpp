@@ -61,7 +61,7 @@ protected:
         return read ? "" : read.error().message;
     }
 
-    /// False: the file system has no such lists.
+    /// Returns false if the file system has no such lists.
     [[nodiscard]] bool set_list(const std::vector<Entry>& entries) const
     {
         std::string bytes;
@@ -123,11 +123,11 @@ TEST_F(PrivateFile, IsNoneWhenItsListGivesItToAnotherUserOrAGroup)
     EXPECT_EQ(complaint(), refusal);
     ASSERT_TRUE(set_list({owner(6), user(geteuid(), 4), owning_group(0), mask(4), other(4)}));
     EXPECT_EQ(complaint(), refusal);
-    // What the mask takes away is not given.
+    // Rights that the mask removes are not granted.
     ASSERT_TRUE(
         set_list({owner(6), user(test::another_user, 4), owning_group(4), mask(0), other(0)}));
     EXPECT_EQ(complaint(), "");
-    // The mask shows as the bits of the group: 0640.
+    // The mask appears as the bits of the group: 0640.
     ASSERT_TRUE(set_list({owner(6), user(geteuid(), 4), owning_group(0), mask(4), other(0)}));
     struct stat status {};
     ASSERT_EQ(stat(path.c_str(), &status), 0);
@@ -144,7 +144,7 @@ TEST_F(PrivateFile, MayBelongToRootAndBeGivenToThisUserByItsList)
             return read && *read == "secret" ? 0 : 1;
         });
     };
-    // As systemd (254) gives a service its credentials.
+    // The list that systemd (254) gives a service's credentials.
     const std::vector<Entry> list{owner(4), user(test::another_user, 4), owning_group(0), mask(4),
                                   other(0)};
     if (!set_list(list)) GTEST_SKIP() << "this file system has no access control lists";

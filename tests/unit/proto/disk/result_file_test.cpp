@@ -86,7 +86,7 @@ TEST_F(ResultFileTest, KeepsWhatWasWrittenBeforeTheDiskWasFull)
         EXPECT_FALSE(file.keep());
     }
     EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-    EXPECT_EQ(text_of(path), std::string(600, 'a')); // no part of what did not fit
+    EXPECT_EQ(text_of(path), std::string(600, 'a')); // no part of the bytes that did not fit
     EXPECT_EQ(files(), 1U);
 }
 
@@ -115,7 +115,7 @@ TEST_F(ResultFileTest, RemovesWhatAKilledProcessLeftOfItsFileAndNothingElse)
 
 TEST_F(ResultFileTest, IsWrittenUnderANameThatNobodyCanGuess)
 {
-    // What another user puts there before: links from the names that a process may take.
+    // Links that another user puts there before, under the names that a process may take.
     std::ofstream{folder / "victim"} << "old";
     const auto pid = std::to_string(getpid());
     for (const std::string& name : {"result." + pid + ".partial", "result." + pid + "..partial"})

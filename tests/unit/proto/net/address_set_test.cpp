@@ -65,7 +65,7 @@ TEST(AddressSet, HasTheAddressesOfThisMachine)
     const auto own = addresses_of_this_machine();
     EXPECT_TRUE(own.contains(address("127.0.0.1:1")));
     EXPECT_TRUE(own.contains(address("127.1.2.3:1")));
-    EXPECT_FALSE(own.contains(address("203.0.113.5:1"))); // for documentation alone
+    EXPECT_FALSE(own.contains(address("203.0.113.5:1"))); // reserved for documentation
 }
 
 TEST(AddressPattern, RefusesWhatIsNoAddressAndSaysWhatWouldBeOne)

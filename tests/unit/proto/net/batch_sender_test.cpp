@@ -40,7 +40,7 @@ Datagrams bytes_of(const std::vector<Arrived>& arrived)
 
 std::vector<SendOutcome> all_sent(std::size_t count) { return {count, SendOutcome::sent}; }
 
-/// Both kinds of socket: one that the kernel gives merged datagrams, and one that it does not.
+/// Both kinds of socket: the kernel gives merged datagrams to only one of them.
 class SendBatch : public testing::TestWithParam<std::tuple<const char*, Load>> {
 protected:
     void SetUp() override
@@ -144,7 +144,7 @@ TEST_P(SendBatch, GivesEachDatagramItsMarksAlsoWhereTheKernelRefusesToCut)
         const auto arrived = receive(to, datagrams.size());
         EXPECT_EQ(bytes_of(arrived), datagrams);
         EXPECT_EQ(marks_of(arrived), marks);
-        // One alone, and one of unknown hop limit, which leaves with the system's.
+        // A single datagram, and one with unknown hop limit, which leaves with the system's.
         EXPECT_EQ(send_batch(from, to.local(), of_sizes({10}), {{0x2e, 3}}), all_sent(1));
         EXPECT_EQ(send_batch(from, to.local(), of_sizes({10}), {{0x2e, 0}}), all_sent(1));
         EXPECT_EQ(marks_of(receive(to, 2)), (std::vector<base::IpMarks>{{0x2e, 3}, {0x2e, 64}}));

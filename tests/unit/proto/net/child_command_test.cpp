@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Commands without namespaces, which every user may start; tests/e2e/between has those with.
+// Commands without namespaces, which every user may start. See also tests/e2e/between.
 #include "proto/net/child_command.hpp"
 
 #include <array>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int patience_ms = 20'000;
 
-/// Where the commands of these tests write.
+/// The file to which these tests' commands write.
 struct Output {
     Output() { EXPECT_EQ(pipe(ends.data()), 0); }
     ~Output()
@@ -61,7 +61,7 @@ int code_of(ChildCommand& command)
     return command.exit_code().value_or(-1);
 }
 
-/// True if the process has ended, whoever collects it and when.
+/// True if the process has ended, whether or not its parent has collected it.
 bool has_ended(pid_t process)
 {
     std::ifstream file{"/proc/" + std::to_string(process) + "/stat"};
@@ -79,7 +79,7 @@ bool comes_to_end(pid_t process)
     return false;
 }
 
-/// In a session of its own, which no signal to the group of the command reaches.
+/// In a session of its own, so that no signal to the command's group reaches it.
 constexpr const char* leaves_one_behind = "setsid sleep 1000 & echo $!; exit 5";
 
 TEST(ChildCommand, GivesTheExitCodeOrTheSignal)

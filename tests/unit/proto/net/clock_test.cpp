@@ -34,7 +34,7 @@ TEST(Clock, NeverRunsBackwards)
 
 TEST(Clock, GoesOnWhileTheMachineIsSuspended)
 {
-    // In a namespace of its own, in which the machine has been suspended for 1000 s.
+    // In a time namespace in which the machine was suspended for 1000 s.
     const pid_t outer = fork();
     if (outer == 0) {
         if (unshare(CLONE_NEWTIME) != 0) _exit(77);
@@ -121,7 +121,7 @@ TEST(StopSignal, IsSeenByWhoeverAsksAndAskedForFromAnywhere)
     EXPECT_GT(stop.requested_for(), base::Duration{0});
 }
 
-/// What a child ends with that a signal, or its terminal, asks to end while it is stuck.
+/// Returns the end of a child that a signal, or its terminal, asks to end while it is stuck.
 template <typename Stop>
 int end_of_a_stuck_child(Stop ask)
 {

@@ -24,7 +24,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Two commands that only have to be started.
+/// Two commands that only have to start.
 struct TwoCommands : testing::Test {
     TwoCommands()
     {

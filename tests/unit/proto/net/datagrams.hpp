@@ -18,7 +18,7 @@ constexpr auto patience = std::chrono::seconds{10};
 
 inline Endpoint endpoint(std::string_view text) { return resolve(parse_host_port(text).value()); }
 
-/// A copy of what UdpSocket::receive() hands out only until its next call.
+/// A copy of a datagram that UdpSocket::receive() keeps only until its next call.
 struct Arrived {
     std::vector<std::byte> bytes;
     Endpoint from;

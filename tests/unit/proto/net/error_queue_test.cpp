@@ -24,10 +24,10 @@ protected:
         if (GetParam()[0] == '[' && !test::has_ipv6()) GTEST_SKIP() << "no IPv6 here";
     }
 
-    /// Where nobody listens.
+    /// An address without a listener.
     [[nodiscard]] static Endpoint silent_place() { return UdpSocket{endpoint(GetParam())}.local(); }
 
-    /// Takes what waits for a while.
+    /// Takes waiting errors for a while.
     static void look(UdpSocket& socket)
     {
         const auto end = monotonic_now() + 100ms;
@@ -60,7 +60,7 @@ TEST_P(ErrorQueueOn, CountsAnswersToBatchesOfUnequalSizes)
     std::vector<std::vector<std::byte>> datagrams;
     for (std::size_t size = 1; size <= 12; ++size) datagrams.push_back(datagram(size, 1));
     const std::vector<std::span<const std::byte>> batch{datagrams.begin(), datagrams.end()};
-    // Larger ones follow smaller ones, so that the kernel merges none.
+    // Larger datagrams follow smaller ones, so that the kernel merges none.
     for (const SendOutcome outcome : socket.send_batch(nobody, batch)) {
         EXPECT_EQ(outcome, SendOutcome::sent);
     }

@@ -14,7 +14,7 @@
 namespace hapnet::net {
 namespace {
 
-/// How a child ended that does this where no file may grow beyond 10 bytes.
+/// Returns the end of a child that runs `work` where no file may grow beyond 10 bytes.
 template <typename Work>
 int status_after(void (*handler)(int), const Work& work)
 {

@@ -15,7 +15,7 @@
 namespace hapnet::net {
 namespace {
 
-/// A process in a network of its own, which opens a socket when it is told to.
+/// A process in a network namespace, which opens a socket on command.
 class Neighbour {
 public:
     Neighbour(int family, int type)

@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint start{1000s};
 
-/// What systemd listens on, at a path or, after '@', at a name in no folder.
+/// A socket like that of systemd, at a path or, after '@', at a name in no folder.
 class Manager {
 public:
     explicit Manager(const std::string& place) : socket_{socket(AF_UNIX, SOCK_DGRAM, 0)}
@@ -62,7 +62,7 @@ struct ToldManager : testing::Test {
     ToldManager& operator=(const ToldManager&) = delete;
 
     [[nodiscard]] std::string path() const { return folder + "/notify"; }
-    /// A program that is told to tell the manager there, and to give a sign of life so often.
+    /// A program that has to report there, and to show signs of life at this interval.
     static ServiceManager told(const std::string& place, const char* watchdog_us = nullptr)
     {
         setenv("NOTIFY_SOCKET", place.c_str(), 1);
@@ -113,7 +113,7 @@ TEST_F(ToldManager, GetsNoSignsOfLifeThatItDoesNotAskFor)
         EXPECT_EQ(program.next_deadline(), std::nullopt);
         program.tell_alive(start);
     }
-    setenv("WATCHDOG_PID", "1", 1); // asked of another process
+    setenv("WATCHDOG_PID", "1", 1); // concerns another process
     ServiceManager program = told(path(), "10000000");
     EXPECT_EQ(program.next_deadline(), std::nullopt);
     program.tell_alive(start);
@@ -144,7 +144,7 @@ TEST_F(ToldManager, IsNeverWaitedFor)
 
 TEST_F(ToldManager, MayBeMissing)
 {
-    ServiceManager program = told(path(), "10000000"); // where nobody listens
+    ServiceManager program = told(path(), "10000000"); // no listener
     program.tell_ready();
     program.tell_alive(start);
     program.tell_stopping();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int patience_ms = 10'000;
 
-/// A pipe, as the program that starts another one makes it.
+/// A pipe, made like that of a program that starts another program.
 struct Lifeline {
     Lifeline() { EXPECT_EQ(pipe(ends.data()), 0); }
     ~Lifeline()
@@ -36,8 +36,8 @@ struct Lifeline {
     std::array<int, 2> ends{-1, -1};
 };
 
-/// Starts a process that is given this lifeline, as a program is, and then does its work, whose
-/// result is its exit code. Returns once the process holds the lifeline.
+/// Starts a process with this lifeline, as a program has it, and runs `work`, whose result is its
+/// exit code. Returns once the process holds the lifeline.
 template <typename Work>
 pid_t start(Lifeline& lifeline, Work work)
 {
@@ -88,7 +88,7 @@ TEST(StopSignal, ComesAtOnceWhenTheHolderHasEndedBefore)
     EXPECT_EQ(exit_code_of(start(lifeline, stops)), 0);
 }
 
-/// Whether a program that was given the folder has removed it at its end.
+/// True if a program removed its folder at its end.
 bool removes_folder(Lifeline& lifeline)
 {
     std::string folder = "/tmp/hapnet-lifeline-XXXXXX";

@@ -12,7 +12,7 @@
 namespace hapnet::net::terminal_line_test {
 namespace {
 
-/// A terminal of that width.
+/// A terminal of a given width.
 class Terminal {
 public:
     explicit Terminal(unsigned short columns) : descriptor_{posix_openpt(O_RDWR | O_NOCTTY)}

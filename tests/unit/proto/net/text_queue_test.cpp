@@ -29,13 +29,13 @@ struct OpenPipe {
 
 TEST(TextQueue, WritesAllInItsOrder)
 {
-    for (const int flags : {0, O_NONBLOCK}) { // somebody else may have set it
+    for (const int flags : {0, O_NONBLOCK}) { // another process may have set it
         const OpenPipe pipe{flags};
         std::string expected;
         std::string got;
         std::thread reader{[&] {
             std::array<char, 1000> block{};
-            while (got.size() < 3895) { // a pipe gives what it has
+            while (got.size() < 3895) { // a pipe gives its present bytes
                 const auto count = read(pipe.ends[0], block.data(), block.size());
                 if (count > 0) got.append(block.data(), static_cast<std::size_t>(count));
             }
@@ -69,7 +69,7 @@ TEST(TextQueue, DropsAndCountsWhatFindsNoRoomAndNeverWaits)
     EXPECT_GE(queue.lost(), 1000U - 66 - TextQueue::bytes_max / 1000);
     EXPECT_LT(queue.lost(), 1000U);
     EXPECT_FALSE(queue.is_done());
-    close(ends[0]); // what cannot be written is not waited for either
+    close(ends[0]); // the queue does not wait for text that cannot be written
     while (!queue.is_done()) std::this_thread::yield();
     EXPECT_EQ(queue.error(), EPIPE);
     close(ends[1]);

@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// CLOCK_REALTIME is slewed against CLOCK_MONOTONIC by at most 500 ppm, and the two are read one
-/// after the other: what a stamp may be off by within one test.
+/// The largest error of a stamp within one test: CLOCK_REALTIME is slewed against CLOCK_MONOTONIC
+/// by at most 500 ppm, and the two are read one after the other.
 constexpr auto stamp_tolerance = 1ms;
 
 class UdpSocketOn : public testing::TestWithParam<const char*> {
@@ -145,7 +145,7 @@ TEST(UdpSocket, CountsWhatTheKernelHadToDrop)
     }
     std::uint64_t received = 0;
     for (auto batch = b.receive(); !batch.empty(); batch = b.receive()) received += batch.size();
-    // The kernel tells the count along with the next datagram that fits.
+    // The kernel reports the count with the next datagram that fits.
     ASSERT_EQ(a.send(b.local(), datagram(1, 1)), SendOutcome::sent);
     ASSERT_EQ(receive(b, 1).size(), 1U);
     EXPECT_GT(b.overflowed(), 0U);

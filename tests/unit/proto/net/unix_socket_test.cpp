@@ -77,7 +77,7 @@ TEST(UnixListener, ReplacesASocketThatNobodyAnswersOnAndNothingElse)
     const std::string other = place.path() + "2";
     {
         const UnixListener gone{place.path()};
-        std::filesystem::rename(place.path(), other); // and so it stays behind
+        std::filesystem::rename(place.path(), other); // so the socket file stays behind
     }
     EXPECT_EQ(error_of(other), 0);
     const UnixListener living{place.path()};

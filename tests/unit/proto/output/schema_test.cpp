@@ -55,7 +55,7 @@ TEST(Schema, HasEveryKeyWithItsKindAndItsWords)
     EXPECT_EQ(keys.at("owner").dump(), R"({"type":["string","null"]})");
     EXPECT_EQ(keys.at("gait").dump(), R"({"enum":["walk","trot"]})");
     EXPECT_EQ(keys.at("laps").dump(), R"({"minimum":0,"type":"integer"})");
-    // What is not finite is null, so every number may be.
+    // A number that is not finite is null, so every number may be null.
     EXPECT_EQ(keys.at("best_s").dump(), R"({"type":["number","null"]})");
     EXPECT_EQ(keys.at("worst_s").dump(), R"({"type":["number","null"]})");
     EXPECT_EQ(keys.at("saddles").dump(), R"({"items":{"$ref":"#/$defs/saddle"},"type":"array"})");
@@ -93,7 +93,7 @@ TEST(Schema, KnowsTimesMapsAndWhatIsLeftOut)
     EXPECT_EQ(keys.at("steps").at("required").dump(), R"(["walk","trot"])");
     EXPECT_EQ(keys.at("prizes").dump(),
               R"({"additionalProperties":{"type":"string"},"type":"object"})");
-    // It is never null: it is there, or not.
+    // The key is never null: it is present or absent.
     EXPECT_EQ(keys.at("lost").dump(), R"({"$ref":"#/$defs/saddle"})");
     EXPECT_EQ(keys.at("place").at("minItems"), 2);
     EXPECT_EQ(keys.at("place").at("maxItems"), 2);

@@ -35,7 +35,7 @@ TEST(Bins, ThatAreWideEnoughStay)
 
 TEST(Bins, ThatAreTooNarrowBecomeEvenOnesWithAllThatWasCounted)
 {
-    // A few at zero would be a density of thousands.
+    // A few values at zero would be a density of thousands.
     const auto even = without_narrow({{0.0, 1e-6, 4.0}, {10.0, 20.0, 96.0}});
     double all = 0.0;
     for (const Bin& bin : even) {

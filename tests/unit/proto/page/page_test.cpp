@@ -14,7 +14,7 @@
 namespace hapnet::page {
 namespace {
 
-/// The length of the regular expression that begins there; 0: it is a division, or none.
+/// The length of the regular expression that begins there; 0: a division, or no slash.
 std::size_t expression_length(std::string_view source, std::size_t at)
 {
     const auto before = source.find_last_not_of(' ', at == 0 ? 0 : at - 1);
@@ -36,8 +36,8 @@ std::size_t expression_length(std::string_view source, std::size_t at)
     return 0;
 }
 
-/// What is open at the end of a script or a style sheet: brackets, a text, a comment. Knows the
-/// comments and texts of both, and expressions; templates are texts without templates in their ${}.
+/// Returns the brackets, texts and comments left open by a script or style sheet. Knows regular
+/// expressions. Templates count as texts, without templates in their ${}.
 std::string left_open(std::string_view source)
 {
     std::string open;
@@ -183,7 +183,7 @@ TEST(Page, ModulesImportOnlyWhatThePageCarries)
         for (const std::string& name : imports_of(source.get<std::string>())) {
             const std::string wanted = resolved(name, from);
             ++count;
-            // What lays out results and what players need, pages of results carry besides.
+            // Pages of results also contain the modules for the layout of results and for players.
             const bool is_of_results = wanted == "report/sections.js" ||
                                        wanted == "report/player.js" || wanted.starts_with("scene");
             EXPECT_TRUE(is_of_results || modules["plain"].contains(wanted)) << from << ": " << name;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 
-// Handshakes under a flood of forged messages of handshakes, by attackers who see every datagram
-// and know both public keys.
+// Handshakes under a flood of forged handshake messages, by attackers who see every datagram and
+// know both public keys.
 
 #include "proto/secure/association.hpp"
 
@@ -33,7 +33,7 @@ Hash mac1_key(const Secret& secret, std::uint8_t receiver)
 /// Sends forged initiations and responses to both sides of a world.
 class Forger {
 public:
-    /// `shared` names the pre-shared key that he takes for the circle's.
+    /// `shared` names the pre-shared key that he uses as the circle's.
     Forger(World& world, std::uint8_t shared, std::uint64_t seed)
         : world_{world},
           random_{base::Seed{seed}.stream("forger")},
@@ -41,7 +41,7 @@ public:
           jars_{CookieJar{keys_[0]}, CookieJar{keys_[1]}}
     {}
 
-    /// As many of each kind to each side.
+    /// Sends `count` of each kind to each side.
     void send(int count)
     {
         look();
@@ -58,7 +58,7 @@ private:
     static std::size_t index(int side) { return static_cast<std::size_t>(side); }
     static std::uint8_t id_of(int side) { return static_cast<std::uint8_t>(side + 1); }
 
-    /// He takes the cookies that his initiations are answered with, and sees which handshakes wait.
+    /// He takes the cookies from the answers to his initiations, and sees which handshakes wait.
     void look()
     {
         for (; looked_at_ < world_.seen().size(); ++looked_at_) {
@@ -114,7 +114,7 @@ private:
     std::size_t looked_at_ = 0;
 };
 
-/// `seed` is that of what the two draw.
+/// `seed` is the seed of both sides' draws.
 Setting one_of(std::uint8_t shared, std::uint8_t seed = 100)
 {
     return {.id = 1, .run = 11, .shared = shared, .seed = seed};
@@ -126,7 +126,7 @@ Setting two_of(std::uint8_t shared, std::uint8_t seed = 100)
 
 bool have_met(World& world) { return !world.a().received.empty() && !world.b().received.empty(); }
 
-/// Until both have heard a state of the other.
+/// Plays until both have received a state of the other.
 base::Duration time_to_meet(World& world)
 {
     const base::TimePoint began = world.now();
@@ -134,8 +134,8 @@ base::Duration time_to_meet(World& world)
     return world.now() - began;
 }
 
-/// The same, with 1000 forged initiations and 1000 forged responses a second to each side: evenly,
-/// or as 20 of each in every twentieth millisecond.
+/// As above, with 1000 forged initiations and 1000 forged responses a second to each side: evenly,
+/// or 20 of each in every twentieth millisecond.
 base::Duration time_to_meet(World& world, Forger& forger, int in_a_burst)
 {
     const base::TimePoint began = world.now();
@@ -186,7 +186,7 @@ TEST(AssociationFlood, OfForgedHandshakesIsInTheCountersWhole)
         member.send(1);
         world.run(1ms);
     }
-    world.run(20ms); // those that wait are read
+    world.run(20ms); // so that waiting ones are read
     for (const int side : {0, 1}) {
         const auto& counts = (side == 0 ? world.a() : world.b()).association->counts();
         EXPECT_GE(counts.refused + counts.unread + counts.cookies, member.sent_to(side)) << side;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 
-// Keys that are renewed on bad networks and with dates that jump, and datagrams that are
-// redirected.
+// Renewed keys on bad networks and with dates that jump, and redirected datagrams.
 
 #include "proto/secure/association.hpp"
 
@@ -27,7 +26,7 @@ bool is_initiation_of_the_lower_id(const Datagram& datagram)
     return datagram.to == 1 && frame_type_of(datagram.bytes) == FrameType::initiation;
 }
 
-/// The largest number of messages, one after the other, that did not come.
+/// Returns the largest number of consecutive messages that did not arrive.
 std::uint32_t longest_gap(std::vector<std::uint32_t> sequences)
 {
     std::ranges::sort(sequences);
@@ -37,7 +36,7 @@ std::uint32_t longest_gap(std::vector<std::uint32_t> sequences)
     return longest;
 }
 
-/// Everything that the network brought was opened, or had come already, in one session.
+/// Expects that every datagram was opened, or had come before, in one session.
 void expect_nothing_lost(World& world)
 {
     for (Side* side : {&world.a(), &world.b()}) {
@@ -84,7 +83,7 @@ TEST(AssociationRenewal, IsBegunByTheHigherIdWhenTheLowerOnesInitiationsNeverArr
 
 TEST(AssociationRenewal, GoesOnWhereDatesJumpByYearsWithinARun)
 {
-    // Both dates go forward before the first renewal, and back before the second, at 220 s.
+    // Both dates jump forward before the first renewal, and back before the second, at 220 s.
     World world{one, two};
     world.run(100s);
     for (const std::int64_t offset : {twenty_years_ns, std::int64_t{0}}) {

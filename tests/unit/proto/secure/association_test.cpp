@@ -28,7 +28,7 @@ std::vector<Text> of_type(World& world, int to, FrameType type)
     return found;
 }
 
-/// Initiations to each side that arrived nowhere, the newest last.
+/// Initiations to each side that never arrived, the newest last.
 std::array<std::vector<Text>, 2> withheld_initiations(const Setting& a, const Setting& b,
                                                       base::Duration time = 30s)
 {
@@ -84,7 +84,7 @@ TEST(Association, NeedsThePreSharedKeyAndTheRightPeer)
     Setting other_shared = two;
     other_shared.shared = 8;
     Setting other_peer = two;
-    other_peer.other_key_of = 77; // takes 1 for somebody else
+    other_peer.other_key_of = 77; // has another peer's key for 1
     for (const Setting& wrong : {other_shared, other_peer}) {
         World world{one, wrong};
         world.run(8s);
@@ -272,7 +272,7 @@ TEST(Association, TakesNothingTwice)
     const std::uint64_t hellos = world.b().hellos, roamed = world.b().association->counts().roamed;
     for (const Datagram& each : everything)
         if (each.to == 1) world.give(1, each.bytes, each.from);
-    EXPECT_EQ(world.b().received.size(), received + 5); // those that were under way
+    EXPECT_EQ(world.b().received.size(), received + 5); // the datagrams that were on their way
     EXPECT_EQ(world.b().hellos, hellos);
     EXPECT_EQ(world.b().association->counts().roamed, roamed);
     EXPECT_GT(world.b().association->counts().replayed, 1900U);
@@ -332,7 +332,7 @@ TEST(Association, GivesACapturedAndWithheldInitiationOneAnswerAndKeepsItsKey)
 {
     World world{one, two};
     world.run(1s);
-    // Side 1 falls silent to itself: its initiation is captured and never arrives.
+    // Side 1 hears nothing, so it sends an initiation, which is captured and never arrives.
     world.network().loss = 1.0;
     world.run(1500ms);
     world.network().loss = 0.0;
@@ -343,7 +343,7 @@ TEST(Association, GivesACapturedAndWithheldInitiationOneAnswerAndKeepsItsKey)
     world.give(1, captured, place_of(66));
     world.run(2s);
     EXPECT_LE(of_type(world, 0, FrameType::response).size(), answers + 3);
-    EXPECT_GT(world.b().received.size(), received + 1900); // under the key that it had
+    EXPECT_GT(world.b().received.size(), received + 1900); // under its earlier key
     EXPECT_EQ(world.b().association->place(), place_of(1));
 }
 
@@ -440,14 +440,14 @@ TEST(Association, KeepsOneOfTwoProgramsWithTheSameKeyForFiveSeconds)
 TEST(Association, ConfirmsAKeyThatItBeganAlsoWhenItHasNothingToSay)
 {
     World world{one, two};
-    world.a().talks = false; // the lower id, which initiates
+    world.a().talks = false; // the initiator
     world.run(200ms);
     EXPECT_GT(world.a().hellos, 0U);
     const auto hellos_of_a = of_type(world, 1, FrameType::hello);
     ASSERT_FALSE(hellos_of_a.empty());
     EXPECT_EQ(hellos_of_a.front().size(), empty_bytes + control_overhead);
-    EXPECT_LT(hellos_of_a.size(), 3U); // until it heard something
-    EXPECT_EQ(world.b().hellos, 0U);   // they are no messages
+    EXPECT_LT(hellos_of_a.size(), 3U); // until it received something
+    EXPECT_EQ(world.b().hellos, 0U);   // they do not count as messages
 }
 
 TEST(Association, IsFoundByAPeerWhosePlaceNobodySaid)
@@ -483,7 +483,7 @@ TEST(Association, AsksForACookieWhenManyInitiationsComeAndStillMeetsTheOther)
     }
     EXPECT_GT(world.b().association->counts().cookies, 20U);
     EXPECT_EQ(world.b().association->counts().handshakes, 1U);
-    // The other side, restarted in the middle of that, gets in with a cookie of its own.
+    // The other side, restarted during the attack, gets in with a cookie of its own.
     Setting again = one;
     again.run = 33;
     again.seed = 222;

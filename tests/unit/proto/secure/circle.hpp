@@ -39,7 +39,7 @@ using namespace std::chrono_literals;
     return low * 1000 + high;
 }
 
-/// A plain state as its head goes: magic, version, type, session, sequence, time; then a body.
+/// A plain state: magic, version, type, session, sequence, time; then a body.
 [[nodiscard]] inline Text state(std::uint32_t session, std::uint32_t sequence)
 {
     Text text(70);
@@ -67,7 +67,7 @@ struct Setting {
     std::uint8_t id = 1;
     std::uint32_t run = 11;
     std::uint8_t shared = 9;       // names the pre-shared key; 0: none
-    std::uint8_t other_key_of = 0; // whose public key it expects; 0: the other id's
+    std::uint8_t other_key_of = 0; // the id whose public key it expects; 0: the other id
     bool may_roam = true;
     bool knows_place = true;
     std::uint8_t seed = 100;
@@ -115,8 +115,8 @@ struct Network {
     base::Duration jitter{0};
     double duplicates = 0.0;
     std::uint64_t seed = 1;
-    std::optional<Place> redirected_from{};          // all comes from there, whoever sent it
-    std::function<bool(const Datagram&)> drops = {}; // besides what is lost by chance
+    std::optional<Place> redirected_from{};          // source of all datagrams, whoever sent them
+    std::function<bool(const Datagram&)> drops = {}; // in addition to random loss
 };
 
 class World {
@@ -147,7 +147,7 @@ public:
     {
         for (const base::TimePoint end = now_ + time; now_ < end; now_ += 1ms) step();
     }
-    /// Nothing happens in that time.
+    /// Lets time pass without any event.
     void skip(base::Duration time) { now_ += time; }
     /// Gives it to a side at once.
     void give(int to, Text bytes, const Place& from)
@@ -198,7 +198,7 @@ private:
         const Side& sender = sides_[static_cast<std::size_t>(from)];
         Datagram datagram{std::move(bytes), sender.place, 1 - from, now_};
         seen_.push_back(datagram);
-        if (sides_[static_cast<std::size_t>(1 - from)].place != to) return; // nobody is there
+        if (sides_[static_cast<std::size_t>(1 - from)].place != to) return; // no side is there
         if (network_.drops && network_.drops(datagram)) return;
         datagram.from = network_.redirected_from.value_or(datagram.from);
         ++count_;

@@ -35,7 +35,7 @@ TEST(FairQueue, LosesTheItemWithTheLowestNumberWhenItIsFull)
     FairQueue<int, 3> queue;
     for (const int item : {1, 2, 3}) queue.add(item, 10U * static_cast<unsigned>(item));
     EXPECT_FALSE(queue.add(4, 25)); // takes the place of 1
-    EXPECT_FALSE(queue.add(5, 5));  // lost itself
+    EXPECT_FALSE(queue.add(5, 5));  // dropped itself
     EXPECT_EQ(all_of(queue), (std::vector{3, 4, 2}));
 }
 

@@ -64,7 +64,7 @@ Secret responder_ephemeral()
 }
 const Text prologue = from_hex("4a6f686e2047616c74");
 
-/// Steps until the message is done; counts the steps.
+/// Steps until the message is complete, and counts the steps.
 NoiseKk::Progress run(NoiseKk& handshake, int* steps = nullptr)
 {
     for (;;) {
@@ -121,7 +121,7 @@ TEST(NoiseKk, SaysByteForByteWhatThePublishedVectorSays)
 
 TEST(NoiseKk, TakesOneMultiplicationAStepSoThatATickBearsIt)
 {
-    // e, es | es | e, ee, se | ee, se; the static keys' own was multiplied before.
+    // e, es | es | e, ee, se | ee, se. The product of the static keys was computed before.
     Pair pair;
     int steps = 0;
     pair.a.write({});

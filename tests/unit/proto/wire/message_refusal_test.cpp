@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// What decode() does not take, byte by byte.
+// The messages that decode() refuses, byte by byte.
 #include "tests/unit/proto/wire/hex.hpp"
 #include "tests/unit/proto/wire/samples.hpp"
 
@@ -48,7 +48,7 @@ TEST(Refusal, OfEveryTruncationAndEveryExtension)
             EXPECT_FALSE(decode(std::span{bytes}.first(size))) << size;
         }
         while (bytes.size() < 2048) {
-            bytes.push_back(std::byte{0}); // a second body 0 does not ascend
+            bytes.push_back(std::byte{0}); // a second body 0 is not in order
             EXPECT_FALSE(decode(bytes)) << bytes.size();
         }
     }
@@ -86,7 +86,7 @@ TEST(Refusal, OfAbsentFieldsThatAreNotZero)
     const Bytes state = bytes_of_message(full_state());
     EXPECT_EQ(error_of(with(state, state_flags, 0x0e)), "state: not canonical");
     EXPECT_EQ(error_of(with(state, state_flags, 0x07)),
-              "state: not canonical"); // a body all the same
+              "state: not canonical"); // a body without its flag
     Hello silent = full_hello();
     silent.echo.reset();
     EXPECT_EQ(error_of(with(bytes_of_message(silent), hello_echo + 8, 1)), "hello: not canonical");
@@ -100,7 +100,7 @@ TEST(Refusal, OfWhatCannotBe)
     EXPECT_EQ(error_of(nameless), "hello: not canonical"); // nonce 0
     Bytes anonymous = hello;
     std::fill(anonymous.begin() + 17, anonymous.begin() + 19, std::byte{0});
-    EXPECT_EQ(error_of(anonymous), "hello: not canonical"); // peer 0, which nobody could answer
+    EXPECT_EQ(error_of(anonymous), "hello: not canonical"); // peer 0 cannot be answered
     Bytes unnumbered = bytes_of_message(full_state());
     std::fill(unnumbered.begin() + 8, unnumbered.begin() + 12, std::byte{0});
     EXPECT_EQ(error_of(unnumbered), "state: not canonical"); // sequence 0

@@ -48,7 +48,7 @@ using namespace std::chrono_literals;
             .turning = {}};
 }
 
-/// One that can.
+/// A body that can turn.
 [[nodiscard]] inline BodyState turning_body()
 {
     BodyState body = plain_body();

@@ -45,7 +45,7 @@ TEST(AdvanceToGap, TakesNoLookAtWhatFliesPast)
 
 TEST(AdvanceToGap, FindsTheCornerThatComesRoundToAPlane)
 {
-    // The diagonal of a face stands upright after an eighth of a turn.
+    // The diagonal of a face is vertical after an eighth of a turn.
     const double height = 0.5 * (0.5 + std::sqrt(0.5));
     std::uint32_t steps = 100;
     const Advanced round =
@@ -71,14 +71,14 @@ TEST(AdvanceToGap, SaysHowFarItCameWhenItsStepsAreUsedUp)
 
 TEST(AdvanceToGap, TakesOneLookAtWhatSpinsBesideAPlane)
 {
-    // A rod on end spins about its own length: its corners go round in a narrow circle.
+    // An upright rod spins about its own length, so its corners move in a narrow circle.
     SteadyBox rod = steady_cube({0.0, 1.1, 0.0}, {}, {1e4, 0.0, 0.0});
     rod.half = {3.0, 0.5, 0.5};
     rod.radius = std::sqrt(9.5);
     std::uint32_t steps = 1;
     const Advanced beside = advance_to_gap(PlaneSurface{}, rod, {.to = 1.0}, steps);
     EXPECT_EQ(beside.end, Advanced::End::clear);
-    // And two, side by side.
+    // Also two rods, side by side.
     SteadyBox other = rod;
     other.centre.y += 1.5;
     other.spin = -rod.spin;
@@ -86,7 +86,7 @@ TEST(AdvanceToGap, TakesOneLookAtWhatSpinsBesideAPlane)
     EXPECT_EQ(advance_to_gap(rod, other, {.to = 1.0}, steps).end, Advanced::End::clear);
 }
 
-/// Boxes of any form that fly at each other and turn, each by so much in the time.
+/// Boxes of any shape that fly at each other and rotate, each by a given angle in the time.
 struct Meeting {
     SteadyBox a;
     SteadyBox b;
@@ -108,8 +108,8 @@ Meeting random_meeting(std::uint64_t seed, double turn)
 
 class AdvanceToGapOf : public testing::TestWithParam<double> {};
 
-/// Compared with the gap at many moments: never past one at which it is narrower than asked for,
-/// and where it says that it is reached, it is.
+/// Compared with the gap at many moments: the result is never later than a moment at which the gap
+/// is smaller than requested, and a reported gap is reached.
 TEST_P(AdvanceToGapOf, TwoThatTurnNeverGoesPastATouch)
 {
     constexpr double near = 1e-4;

@@ -93,7 +93,7 @@ TEST(BoxBox, OnASlabTouchWithTheSmallBoxesCornersWhicheverIsFirst)
     }
 }
 
-// Half of the octagon's corners: every second, so that the base is as wide in all directions.
+// Every second corner of the octagon, so that the base is equally wide in all directions.
 TEST(BoxBox, TwistedOnEachOtherTouchWithFourOfEightCornersAroundTheMiddle)
 {
     const double half_angle = std::sqrt(0.5);
@@ -171,7 +171,7 @@ TEST(BoxBox, SlidingKeepTheirFeaturesUntilACornerLeaves)
     EXPECT_NE(features(collide(slab, cube({4.75, 0.5, 0.0}), margin, memory)), *first);
 }
 
-// On the diagonal two faces are as good: noise must not choose anew at every tick.
+// On the diagonal two faces are equally good. Noise must not choose between them at every tick.
 TEST(BoxBox, KeepTheirAxisWhileAnotherIsNoClearlyBetter)
 {
     BoxBoxMemory memory;

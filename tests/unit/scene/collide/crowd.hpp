@@ -10,7 +10,7 @@
 
 namespace hapnet::scene {
 
-/// Bodies and who is near whom, without a tick that moves them: tests do.
+/// Bodies and their neighbours, without a tick that moves them: the tests move them.
 template <BroadPhase broad_phase>
 struct Crowd {
     explicit Crowd(const Description& description)
@@ -57,7 +57,7 @@ struct Crowd {
     PairFinder<broad_phase> pair_finder;
 };
 
-/// Movable cubes with edges of 4 cm, in a row along x, so far from centre to centre.
+/// Movable cubes with edges of 4 cm, in a row along x, with this distance between centres.
 inline Description row_of_cubes(std::size_t count, double distance_m)
 {
     Description description;

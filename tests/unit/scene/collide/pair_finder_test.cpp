@@ -47,7 +47,7 @@ TYPED_TEST(NeighboursOf, AreLookedForAboutOnceInThirtyTicksOfFlight)
     EXPECT_LE(crowd.pair_finder.counts().renewed, 10U);
 }
 
-/// A bar along x, and a cube that it can only reach by turning.
+/// A bar along x, and a cube that the bar can only reach by rotation.
 Description bar_below_a_cube()
 {
     Description description = row_of_cubes(2, 0.0);
@@ -61,7 +61,7 @@ TYPED_TEST(NeighboursOf, AreFoundByABodyThatTurnsSlowlyTowardsThem)
     typename TestFixture::Subject crowd{bar_below_a_cube()};
     EXPECT_EQ(crowd.pairs(), List{});
     for (int step = 1; step <= 50; ++step) {
-        const double half_angle = 0.0157 * step; // to a right angle
+        const double half_angle = 0.0157 * step; // up to a right angle
         crowd.bodies.orientation.put(crowd.bodies.slot_of[0],
                                      {std::cos(half_angle), 0.0, 0.0, std::sin(half_angle)});
         crowd.pair_finder.update(crowd.bodies);

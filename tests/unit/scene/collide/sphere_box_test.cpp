@@ -20,7 +20,7 @@ std::optional<SphereOverlap> find(const glm::dvec3& centre)
     return SphereBoxMemory{}.find(box, centre, radius);
 }
 
-/// A sphere that goes from place to place relative to a box.
+/// A sphere that moves relative to a box.
 struct Journey {
     OrientedBox around;
     glm::dvec3 before{0.0};
@@ -146,7 +146,7 @@ TEST(SphereBox, PutElsewhereRemembersNothing)
 TEST(SphereBox, EntersAtTheFaceThatItsWayMeetsFirst)
 {
     Journey journey{box, {1.5, 2.25, 0.0}};
-    const auto overlap = journey.to({0.9, 1.0, 0.0}); // x = 1 later than y = 2
+    const auto overlap = journey.to({0.9, 1.0, 0.0}); // enters at x = 1 later than at y = 2
     ASSERT_TRUE(overlap);
     EXPECT_EQ(overlap->normal, glm::dvec3(1.0, 0.0, 0.0));
     Journey other{box, {1.25, 2.5, 0.0}};

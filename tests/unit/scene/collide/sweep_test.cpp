@@ -20,7 +20,7 @@ struct OneCube {
     Bodies bodies{one_cube()};
     SweptBoxes boxes{bodies, scales_of({}, bodies)};
 
-    /// Turns it, and asks for its box in the next tick.
+    /// Rotates it, and returns its box in the next tick.
     const SweptBox& after_turn(double angle)
     {
         bodies.orientation.put(0, rotated(bodies.orientation.at(0), {angle, 0.0, 0.0}));

@@ -117,7 +117,7 @@ TEST(Advance, AHandPushesNoHarderThanItsLimit)
         most = std::max(most, rig.work[0].impulse.x);
     }
     EXPECT_NEAR(most, 3.3e-3, 1e-15);
-    // In the hand's frame the cube comes with 0.5 m/s and is thrown back as fast.
+    // In the hand's frame the cube arrives with 0.5 m/s and bounces back equally fast.
     EXPECT_NEAR(rig.body.velocity.x, 1.0, 1e-9);
 }
 

@@ -22,7 +22,7 @@ TEST(MidpointRule, NeverCostsMoreThanItsBudget)
     }
 }
 
-/// A cube that hangs in a grip, 1 mm off.
+/// A cube that hangs in a grip, displaced by 1 mm.
 struct Held {
     explicit Held(double stiffness, double force_max)
     {
@@ -68,7 +68,7 @@ TEST(MidpointRule, AGripPullsWithItsGreatestForceTowardsTheHand)
 
 TEST(MidpointRule, AGripWhoseForceTurnsAboutItsLimitConverges)
 {
-    // With all its force it still turns towards the hand.
+    // At its full force it still turns towards the hand.
     const auto after = [](int parts) {
         Held held{1e6, 30.0};
         held.body.velocity = {0.0, 0.0, 3.0};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double tick = 1e-3;
 
-/// A cube of 0.1 kg that comes with 0.2 m/s, and a hand before it that does not move.
+/// A cube of 0.1 kg that arrives with 0.2 m/s, and a hand before it that does not move.
 struct Outcome {
     Outcome()
     {
@@ -25,7 +25,7 @@ struct Outcome {
         spring.stiffness = 1e6;
         start.velocity = {0.2, 0.0, 0.0};
     }
-    /// What a rule made of it that gave that impulse.
+    /// Keeps a tick with this impulse passive, and returns the energies.
     HandEnergy after(double impulse, SpringsAtEnd at_end = SpringsAtEnd::ignored)
     {
         work.impulse = {impulse, 0.0, 0.0};
@@ -85,7 +85,7 @@ TEST(Passivity, TheWorkOfOtherForcesIsNotTheHands)
     Outcome outcome;
     outcome.dynamics.acceleration = {-500.0, 0.0, 0.0};
     EXPECT_FALSE(outcome.after(0.0).is_braked);
-    // From 0.2 m/s to -0.3 without the hand, which then only may brake it.
+    // From 0.2 m/s to -0.3 without the hand, which may then only brake it.
     EXPECT_TRUE(outcome.after(-0.001).is_braked);
     EXPECT_NEAR(outcome.end.velocity.x, -0.3, 1e-6);
     EXPECT_FALSE(outcome.after(0.001).is_braked);

@@ -38,7 +38,7 @@ PressedModes::Start random_start(test::Dice& dice, int springs)
     return {depth, speed, draw(-20.0, 20.0)};
 }
 
-/// By Runge and Kutta's rule in small steps; also the most by which the forces changed.
+/// Runge and Kutta's rule in small steps. Also finds the largest change of the forces.
 struct Reference {
     Each impulse{}, moment{}, change{};
 };

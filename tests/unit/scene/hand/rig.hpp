@@ -25,7 +25,7 @@ struct Hand {
     double radius = 0.005;
 };
 
-/// A box among hands, the contacts found anew for every tick.
+/// A box among hands. The contacts are found again for every tick.
 struct Rig {
     glm::dvec3 half{0.02};
     double mass = 0.1;
@@ -105,7 +105,7 @@ struct Rig {
         for (long i = 0; i < ticks; ++i) tick(tick_s);
     }
 
-    /// Of motion, and of the springs.
+    /// Energy of motion and of the springs.
     [[nodiscard]] double energy() const
     {
         const glm::dvec3& momentum = body.angular_momentum;

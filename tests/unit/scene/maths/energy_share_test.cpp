@@ -46,7 +46,7 @@ TEST(EnergyShare, IsNoneOfWhatIsNotANumber)
 
 TEST(EnergyShare, ComesToOneThatHoldsWhateverIsGainedByIt)
 {
-    // What may be gained is hardly more than nothing, and shrinks with the square of the share.
+    // The allowed gain is hardly more than zero, and shrinks with the square of the share.
     const EnergyOfShare energy{0.0, 0.9, 0.2};
     double share = 1.0;
     int rounds = 0;

@@ -69,7 +69,7 @@ TEST_F(FirstRoot, TakesTheNonzeroLevelOfAnythingThatStandsStill)
 
 TEST_F(FirstRoot, IsGivenUpWhenItsStepsAreSpentAndSaysHowFarItLooked)
 {
-    watch_.level = 0.9999999e-4; // as close as that takes more than two steps
+    watch_.level = 0.9999999e-4; // so close that it takes more than two steps
     watch_.displacement_weight[0] = 1.0;
     int steps = 2;
     const RootSearch search = search_root(watch_, trajectories_, 0.0, tick, steps);

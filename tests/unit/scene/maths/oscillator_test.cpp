@@ -19,7 +19,7 @@ double difference(const StepResponse& a, const StepResponse& b, double t)
     return std::max(most, std::abs(a.ramp - b.ramp) / (t * t * t / 6.0));
 }
 
-/// What two stretches of time one after the other make of what one of them does.
+/// The response after two consecutive intervals, from the response to one of them.
 StepResponse twice(const Oscillator& oscillator, const StepResponse& r, double t)
 {
     const auto way = [&](double x, double v) {

@@ -39,7 +39,7 @@ double angle_between(const glm::dquat& a, const glm::dquat& b)
     return 2.0 * std::sqrt(by.x * by.x + by.y * by.y + by.z * by.z);
 }
 
-/// A box that is thrown about its middle axis, and flips again and again (Dzhanibekov).
+/// A box thrown with a spin about its middle axis, which flips again and again (Dzhanibekov).
 FreeRotation flipping()
 {
     const glm::dvec3 inertia = box_inertia(0.1, {0.01, 0.02, 0.03});
@@ -127,7 +127,7 @@ TEST(Rotation, TheTurnBetweenTwoOrientationsLeadsFromOneToTheOther)
         const glm::dvec3 found = turn_between(from, rotated(from, turn));
         EXPECT_NEAR(glm::distance(found, turn), 0.0, 1e-10) << angle;
     }
-    // The shorter of the two ways round.
+    // The shorter of the two rotations.
     const glm::dvec3 back = turn_between(from, rotated(from, {0.0, 4.0, 0.0}));
     EXPECT_NEAR(back.y, 4.0 - 2.0 * 3.14159265358979, 1e-10);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double mass = 0.1;
 constexpr double tick = 1e-3;
 
-/// A tick that one hand made, as the account finds it.
+/// A tick with the push of one hand, as the account finds it.
 class Account : public testing::Test {
 protected:
     Account()
@@ -24,7 +24,7 @@ protected:
         box_.is_exact = false;
     }
 
-    /// The hand has pushed along x with this force, from this depth.
+    /// Records a push of the hand along x with this force, from this depth.
     void push(double force, double depth)
     {
         HandTouch& touch = state_.touches[0];
@@ -59,7 +59,7 @@ TEST_F(Account, LeavesAloneWhatTheSpringHadStored)
 
 TEST_F(Account, TakesNoMoreThanWasStoredAndReportsNoMoreThanWasGiven)
 {
-    push(1000.0, 0.001); // 5 J of 0.25 mJ
+    push(1000.0, 0.001); // 5 J instead of 0.25 mJ
     settle();
     EXPECT_NEAR(energy(), 2.5e-4, 1e-6);
     EXPECT_NEAR(mass * box_.velocity[0], tick * state_.touches[0].on_body.x(), 1e-15);

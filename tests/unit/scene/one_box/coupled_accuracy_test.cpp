@@ -59,7 +59,7 @@ struct Reference {
     }
 };
 
-/// A hand outside of the cube at the origin, and the same for the reference.
+/// Sets a hand outside of the cube at the origin, in the stepper and in the reference.
 template <bool coulomb>
 void add_hand(Rig<coulomb>& rig, Reference& reference, std::uint32_t index, const glm::dvec3& place,
               const glm::dvec3& velocity)
@@ -124,7 +124,7 @@ TEST(SlantedSprings, BounceInATickWithoutLosingAnything)
         rig.place({0.0, 0.0, 0.0}, {1.0, 0.7, 0.2});
         rig.set_hand(0, {0.0249, 0.0238, 0.001}); // it comes to the edge within the tick
         rig.tick();
-        // The normal is that of the tick's start or end, and the push is along it.
+        // The normal is that of the start or end of the tick, and the push is along it.
         const glm::dvec3 push = rig.velocity() - glm::dvec3{1.0, 0.7, 0.2};
         EXPECT_LT(push.x, 0.0);
         EXPECT_NEAR(glm::dot(rig.velocity(), rig.velocity()), 1.53, 1e-11 * 1.53) << stiffness;

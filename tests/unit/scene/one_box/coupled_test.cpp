@@ -30,7 +30,7 @@ protected:
         spring.phase = SpringPhase::pressing;
         spring.normal = normal;
     }
-    /// The matrix of the modes, put together again.
+    /// Returns the matrix of the modes, multiplied together again.
     [[nodiscard]] double springs_between(std::size_t i, std::size_t k) const
     {
         double sum = 0.0;
@@ -92,7 +92,7 @@ TEST_F(Coupled, TwoHandsAtOneEdgeLeaveTheOtherDirectionsFree)
         ++stiff;
         EXPECT_NEAR(mode.oscillator.stiffness, 2.0 * oscillators_.spring().stiffness, 1e-9);
     }
-    EXPECT_EQ(stiff, 1); // rounding is no spring
+    EXPECT_EQ(stiff, 1); // rounding does not make a spring
 }
 
 } // namespace

@@ -70,7 +70,7 @@ TEST(OneBoxFriction, AHandThatComesDownMakesItGrowSteadily)
                 1e-14);
 }
 
-/// Where a box is after 64 ms that is pushed across its way.
+/// Returns the place after 64 ms of a box that is pushed across its direction.
 glm::dvec3 turning(double tick)
 {
     Rig<true> rig{cube_on_platform(friction), tick};

@@ -8,7 +8,7 @@
 
 namespace hapnet::scene {
 
-/// A one-box stepper with a state of its own.
+/// A one-box stepper with its own state.
 template <bool coulomb>
 struct Rig {
     WorldConfig config;

@@ -13,7 +13,7 @@
 namespace hapnet::scene::cluster_test {
 namespace {
 
-/// Some bodies of any form, place and motion, and what their motion sums up to.
+/// Some bodies of any shape, place and motion, and the sums of their momenta.
 struct Crowd {
     Description description;
     Bodies bodies;
@@ -153,7 +153,7 @@ TEST(Cluster, KeepsTheLocksOfItsParts)
         EXPECT_EQ(cluster.motion_of(part).spin, glm::dvec3{0.0});
     }
     EXPECT_NEAR(after(crowd, cluster).momentum.x, before(crowd).momentum.x, 1e-12);
-    // A wall that comes along the lock moves nothing.
+    // A wall that moves along the locked axis moves nothing.
     EXPECT_EQ(cluster.stick_to_wall({0.0, 1.0, 0.0}, {0.0, 50.0, 0.0}), glm::dvec3{0.0});
 
     scene = random_crowd(7);
@@ -184,7 +184,7 @@ TEST(Cluster, LosesAtWallsWhatItHasAgainstThem)
     is_now({0.0, 0.0, 1.0});
     cluster.stick_to_wall({0.0, 0.0, -1.0}, glm::dvec3{0.0});
     is_now({0.0, 0.0, 0.0});
-    // A wall that moves takes it along.
+    // A moving wall takes it along.
     cluster = crowd.stuck();
     cluster.stick_to_wall({0.0, 1.0, 0.0}, {0.0, 5.0, 0.0});
     is_now({-3.0, 5.0, 1.0});

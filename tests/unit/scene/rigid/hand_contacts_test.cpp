@@ -17,8 +17,8 @@ struct Moment {
     glm::dvec3 velocity{0.0};
 };
 
-/// A hand that presses a face, wanders over it and now and then elsewhere, and a box that hardly
-/// turns, or does.
+/// The next moment of a hand that presses a face, slides over it and sometimes jumps, and of a box
+/// that hardly rotates, or does.
 Moment next(const Moment& last, test::Dice& dice)
 {
     Moment now = last;
@@ -37,7 +37,7 @@ Moment next(const Moment& last, test::Dice& dice)
     return now;
 }
 
-/// What one tick finds.
+/// Finds the contacts of one tick.
 std::span<const HandSpring> tick(HandContacts& contacts, const WorldConfig& config,
                                  WorldState& state, const Moment& moment)
 {
@@ -64,12 +64,12 @@ TEST(HandContacts, AFaceThatIsKeptHasTheBitsOfOneThatIsFoundAnew)
         const Moment now = next(before, dice);
         const auto springs = tick(kept, config, state, now);
         const HandTouch touch = state.touches[0];
-        // It knows the tick before, and nothing else.
+        // It knows only the previous tick.
         HandContacts fresh{config};
         std::ignore = tick(fresh, config, state, before);
         const auto expected = tick(fresh, config, state, now);
         before = now;
-        // Within the box it matters where the hand came in.
+        // For a hand within the box, the entry face matters.
         const glm::dvec3 inside = glm::abs(to_local(now.box.box, now.input.position.value));
         if (inside.x <= 0.02 && inside.y <= 0.02 && inside.z <= 0.02) continue;
         ASSERT_EQ(springs.size(), expected.size()) << i;

@@ -45,7 +45,7 @@ inline void run(World& world, std::uint64_t ticks)
     for (std::uint64_t i = 0; i < ticks; ++i) world.tick();
 }
 
-/// How far it is turned from where it began upright, radians (small ones).
+/// Returns the rotation from its upright start, radians (small angles).
 inline double rotated(const BodyState& state)
 {
     const glm::dquat& q = state.orientation;
@@ -66,7 +66,7 @@ inline double energy(const World& world)
     return sum;
 }
 
-/// Cubes one on the other.
+/// Cubes in a stack.
 inline Description stack_of(std::size_t cubes)
 {
     Description scene = platform();
@@ -76,7 +76,7 @@ inline Description stack_of(std::size_t cubes)
     return scene;
 }
 
-/// The farthest that any body is from where the description has it.
+/// Returns the largest distance of a body from its place in the description.
 inline double drift(const World& world, const Description& scene)
 {
     double most = 0.0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int rest_ticks = 100; // a tenth of a second
 
-/// A crowd that sleeps and wakes, and whose contacts a test makes.
+/// Bodies that sleep and wake, with contacts made by the tests.
 template <BroadPhase broad_phase>
 struct Sleepers : Crowd<broad_phase> {
     explicit Sleepers(const Description& description)
@@ -87,7 +87,7 @@ TYPED_TEST(SleepOf, AnIslandWaitsForTheLastOfItsBodies)
     typename TestFixture::Subject crowd{row_of_cubes(4, 0.0401)};
     crowd.touch(0, 1, 1e-3);
     crowd.touch(1, 2, 1e-3);
-    crowd.touch(2, 3, 0.0); // near, and carries nothing
+    crowd.touch(2, 3, 0.0); // near, without a load
     for (BodyId id : {0U, 1U, 3U}) crowd.still(id);
     crowd.update(rest_ticks);
     EXPECT_EQ(crowd.awake(), "aaas");

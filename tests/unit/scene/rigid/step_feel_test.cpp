@@ -30,7 +30,7 @@ Description two_cubes()
     return scene;
 }
 
-/// The velocity of a cube after a hand that stood still, so deep in it, has thrown it off.
+/// Returns the velocity of a cube after a resting hand, at this depth in it, has thrown it off.
 double thrown(double stiffness, double depth) { return depth * std::sqrt(stiffness / 0.1); }
 
 TEST(Feel, ABodyThrowsByItsOwnStiffnessAndTheOthersByThatOfAllHands)
@@ -206,7 +206,7 @@ TEST(Feel, CostsAFeatureAndAHashOnlyWhereItIs)
     };
     const auto before = hash(scene);
     EXPECT_FALSE(needs(scene));
-    scene.own_hands.resize(1); // says nothing of its own
+    scene.own_hands.resize(1); // no values of its own
     EXPECT_FALSE(needs(scene));
     scene.own_hands[0].damping_ns_per_m = 0.0;
     EXPECT_TRUE(needs(scene));

@@ -16,7 +16,7 @@ BodyDescription flying(const glm::dvec3& place)
     return body;
 }
 
-/// Far from each other: a cube, a brick, one that turns about an axis, one that cannot fall.
+/// Bodies far from each other: a cube, a brick, one that turns about an axis, one that cannot fall.
 Description all_kinds()
 {
     Description scene;

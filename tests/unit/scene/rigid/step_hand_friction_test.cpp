@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Hands that stick to what they press, and slide over it.
+// Hands that stick to bodies, and slide over them.
 #include "proto/base/math.hpp"
 #include "scene/text/text.hpp"
 #include "tests/support/scene/bench_scenes.hpp"
@@ -21,7 +21,7 @@ constexpr double radius = 0.005;
 constexpr double sticking = 0.6;
 constexpr double sliding = 0.4;
 
-/// Hands that are springs alone, whose coefficients are those of what they touch.
+/// Hands that are only springs, with the coefficients of the bodies that they touch.
 Description rough_hands(std::uint32_t count)
 {
     Description scene;
@@ -34,7 +34,7 @@ Description rough_hands(std::uint32_t count)
     return scene;
 }
 
-/// A body that is as rough to hands, and smooth to all else.
+/// A body that is equally rough to hands, and smooth to bodies.
 BodyDescription rough_cube(const glm::dvec3& place)
 {
     BodyDescription cube = cube_at(place);
@@ -64,15 +64,15 @@ Description over_fixed_block(const glm::dvec3& velocity = glm::dvec3{0.0})
     return scene;
 }
 
-/// Presses down on y = top with so much force, and is at `place` along x and z.
+/// A hand that presses down on y = top with this force, at `place` along x and z.
 HandInput pressing(double force, const glm::dvec3& place, const glm::dvec3& velocity, double top)
 {
     const glm::dvec3 at{place.x, top + radius - force / stiffness, place.z};
     return {.position = {at}, .velocity = {velocity}};
 }
 
-/// The mean over a tick of the pull on a hand that was drawn a way of `from` to `to` since it
-/// touched: it sticks up to `sticking` times the push, then slides.
+/// The mean over a tick of the pull on a hand, whose path since the touch grew from `from` to `to`.
+/// It sticks up to `sticking` times the push, then slides.
 double mean_pull(double from, double to, double push)
 {
     const double loose = sticking * push / stiffness;
@@ -102,7 +102,7 @@ TEST_P(DrawnAcross, AHandSticksUntilTheConeIsLeftAndSlidesThen)
                   from + speed * tick_s > sticking * push / stiffness);
     }
     EXPECT_LE(worst, 1e-11);
-    // It stops: the stretch with which it slid holds it, and not a little of it creeps away.
+    // After a stop the stretch of sliding holds it without any creep.
     const double place = speed * 300 * tick_s;
     for (int i = 0; i < 1000; ++i) {
         ASSERT_FALSE(world.set_hand(0, pressing(push, place * along, {}, 0.0)));
@@ -110,7 +110,7 @@ TEST_P(DrawnAcross, AHandSticksUntilTheConeIsLeftAndSlidesThen)
         EXPECT_NEAR(glm::dot(world.touch(0).on_hand.value, along), -sliding * push, 1e-11);
     }
     EXPECT_TRUE(world.state().slips[0].sticks);
-    // Back again: it sticks at once, with the other sign after twice the stretch.
+    // Backwards it sticks at once, with the opposite sign after twice the stretch.
     ASSERT_FALSE(world.set_hand(
         0, pressing(push, (place - 2.0 * sliding * push / stiffness) * along, {}, 0.0)));
     world.tick();
@@ -124,7 +124,7 @@ TEST(HandFriction, AKinematicBodyCarriesItsProxyAlong)
 {
     const glm::dvec3 velocity{0.01, 0.0, 0.0};
     World world = World::freeze(over_fixed_block(velocity)).value();
-    for (int i = 0; i < 100; ++i) { // along with it: no pull
+    for (int i = 0; i < 100; ++i) { // moves along: no pull
         ASSERT_FALSE(world.set_hand(0, pressing(1.0, (i * tick_s) * velocity, velocity, 0.0)));
         world.tick();
         EXPECT_NEAR(world.touch(0).on_hand.x(), 0.0, 1e-11);
@@ -139,7 +139,7 @@ TEST(HandFriction, AKinematicBodyCarriesItsProxyAlong)
     }
 }
 
-/// A cube on a smooth floor that can but slide, and a hand that presses down on it.
+/// A cube on a smooth floor that can only slide, and a hand that presses down on it.
 Description on_smooth_floor(double damping)
 {
     Description scene = rough_hands(1);
@@ -206,7 +206,7 @@ TEST(HandFriction, NothingDriftsWhileItSticks)
     const base::Force felt = world.touch(0).on_hand;
     EXPECT_NEAR(felt.x(), -stiffness * 0.5e-3, 1e-6);
     run(world, 20'000);
-    // What the solver leaves, 1e-10 of what gravity adds in a tick, would be 2e-11 m by now.
+    // The solver's rest, 1e-10 of the speed that gravity adds in a tick, would be 2e-11 m by now.
     EXPECT_LE(length(world.body(0).position.value - before.position.value), 1e-11);
     EXPECT_LE(length(world.touch(0).on_hand.value - felt.value), 1e-8);
 }
@@ -276,7 +276,7 @@ TEST(HandFriction, SticksAndSlipsWithThePeriodAndTheWayOfAFineIntegration)
     EXPECT_LE(worst, 0.01 * reference.farthest) << slips;
 }
 
-/// Kinetic energy and what the hand's springs hold.
+/// Kinetic energy and the energy in the hand's springs.
 double energy_of(const World& world)
 {
     const BodyState body = world.body(0);
@@ -296,7 +296,7 @@ TEST(HandFriction, IsPassiveAtAnyStiffness)
             scene.bodies[0].velocity.value = {1.0, 0.0, 0.3};
             scene.hands.stiffness_n_per_m = k;
             World world = World::freeze(scene).value();
-            // A hand that stands still, 0.5 N on the floor's cube.
+            // A resting hand, 0.5 N on the floor's cube.
             const double deep = 0.5 / k;
             ASSERT_FALSE(world.set_hand(
                 0, {.position = {{0.0, 2.0 * half + radius - deep, 0.0}}, .velocity = {}}));

@@ -54,7 +54,7 @@ TEST(RigidHands, ASteadilyPushedCubeFeelsTheFrictionAndNoLag)
     EXPECT_NEAR(world.body(0).velocity.x(), speed, 1e-6);
     EXPECT_NEAR(world.body(0).position.y(), half, 1e-9);
     EXPECT_LT(rotated(world.body(0)), 1e-6);
-    // Where spring and hand have it, at the end of the tick: no k v h.
+    // At the end of the tick spring and hand agree with this place, without an error of k v h.
     EXPECT_NEAR(x + 0.005 - (world.body(0).position.x() - half), force / 500.0, 1e-8);
 }
 

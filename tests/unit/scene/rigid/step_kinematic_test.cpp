@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// Bodies that move by themselves: what they carry, push and turn, against formulas.
+// Kinematic bodies: how they carry, push and turn other bodies, against formulas.
 #include "proto/base/math.hpp"
 #include "scene/query.hpp"
 #include "scene/rigid/driven_energy.hpp"
@@ -63,7 +63,7 @@ TEST(Kinematic, ACubeOnAPlateThatStartsAtOnceSlidesUntilItGoesAlong)
     }
 }
 
-/// Moves the plate on under an acceleration, tick by tick.
+/// Moves the plate at a constant acceleration, tick by tick.
 void accelerate(World& world, double acceleration, int ticks)
 {
     for (int i = 1; i <= ticks; ++i) {
@@ -114,8 +114,8 @@ TEST(Kinematic, AWallThatComesTakesACubeAlongOrThrowsItTwiceAsFast)
     }
 }
 
-/// A smooth ball between two smooth plates, one of which closes: where they meet it by the angle a,
-/// it goes out along the one that stays, by the speed over sin(a).
+/// A smooth ball between two smooth plates at an angle a, one of which closes. It leaves along the
+/// plate that rests, with the speed over sin(a).
 World scissors(double angle, double speed)
 {
     constexpr double radius = 0.02;
@@ -147,14 +147,14 @@ TEST(Kinematic, TwoThatCloseLikeScissorsSqueezeABallOutFasterThanTheyAre)
     World world = scissors(angle, speed);
     run(world, 100);
     EXPECT_EQ(world.state().interventions.guards(), 0U);
-    // Along the middle, by the half of the closing over the sine of the half angle.
+    // Along the middle, with half of the closing speed over the sine of half of the angle.
     EXPECT_NEAR(std::abs(world.velocity(0).x()), 0.5 * speed / std::sin(0.5 * angle), 1e-3 * speed);
 }
 
 TEST(Kinematic, ScissorsThatAreNearlyParallelThrowNothingAtMoreThanTenTimesTheirSpeed)
 {
     constexpr double speed = 0.02;
-    World world = scissors(0.02, speed); // 50 times, if nothing stopped it
+    World world = scissors(0.02, speed); // 50 times the speed without a limit
     for (int i = 0; i < 100; ++i) {
         world.tick();
         ASSERT_LE(length(world.velocity(0).value), 10.5 * speed) << i;
@@ -163,7 +163,7 @@ TEST(Kinematic, ScissorsThatAreNearlyParallelThrowNothingAtMoreThanTenTimesTheir
     EXPECT_GT(counted.islands_limited + counted.impulses_trimmed, 0U);
 }
 
-/// A hand that gives way as fast as a wall drives the cube onto it takes what the wall gives.
+/// A hand that gives way as fast as a wall drives the cube onto it gets the wall's force.
 TEST(Kinematic, ACubeThatAWallPushesAlongAHandThatGivesWayIsFeltWhole)
 {
     constexpr double speed = 0.7, depth = 1e-4, stiffness = 500.0, radius = 0.005;
@@ -204,14 +204,14 @@ TEST(Kinematic, ALiftCarriesWhatItAcceleratesAndAContactTellsTheLoad)
         world.tick();
         const double height = 0.05 * (1.0 - base::cos(base::two_pi * i * tick_s / 2.0));
         ASSERT_NEAR(world.position(1).y(), height - 0.01, 1e-14);
-        ASSERT_NEAR(world.position(0).y(), height + half, 2.5e-6 * half); // 2e-6 touch
+        ASSERT_NEAR(world.position(0).y(), height + half, 2.5e-6 * half); // within 2e-6: touching
         ASSERT_EQ(contacts(world, found), 1U);
         const double angle = base::two_pi * (i - 0.5) * tick_s / 2.0;
         const double lift = 0.05 * (base::two_pi / 2.0) * (base::two_pi / 2.0) * base::cos(angle);
         worst =
             std::max(worst, std::abs(found[0].normal_impulse - 0.1 * (gravity + lift) * tick_s));
     }
-    EXPECT_LE(worst, 0.1 * 2.5e-6 * half / tick_s); // when such a gap is closed within a tick
+    EXPECT_LE(worst, 0.1 * 2.5e-6 * half / tick_s); // where such a gap closes within a tick
 }
 
 TEST(Kinematic, ATurntableCarriesACubeRoundAndThrowsItOffWhenItTurnsTooFast)
@@ -250,7 +250,7 @@ TEST(Kinematic, AHandFeelsItByDepthAndClosingSpeed)
     // 1 mm deep at the start, 0.1 mm more with every tick: the mean over the fifth.
     const double depth = 1e-3 + 4.5 * 1e-4;
     EXPECT_NEAR(world.touch(0).on_hand.y(), 500.0 * depth + 2.0 * 0.1, 1e-12);
-    EXPECT_FALSE(world.touch(0).touching); // nothing movable
+    EXPECT_FALSE(world.touch(0).touching); // no movable body
 }
 
 TEST(Kinematic, AMoveComesToItsTargetAndGoesOnFromThere)
@@ -304,7 +304,7 @@ TEST(Kinematic, ASleeperWakesWhenItsPlateStartsAndIsCarriedHoweverSlowly)
     EXPECT_EQ(world.stepper_kind(), StepperKind::few);
     run(world, 300);
     ASSERT_FALSE(world.is_awake(0) || world.is_awake(2));
-    constexpr double slow = 2e-4; // below the speed of what is at rest
+    constexpr double slow = 2e-4; // below the speed limit of rest
     ASSERT_FALSE(world.drive(1, {{slow, 0.0, 0.0}}, {}));
     run(world, 2000);
     EXPECT_TRUE(world.is_awake(0));
@@ -346,7 +346,7 @@ World heap_on_a_moving_floor(double speed)
     return world_of(scene);
 }
 
-/// What a plate and torques do is work and nothing out of nothing: it is not taken away.
+/// The work of a plate and of torques is no gain of energy from nothing, and is not removed.
 TEST(Kinematic, NoEnergyThatItGivesIsHeldBack)
 {
     for (const double restitution : {0.0, 0.8}) {

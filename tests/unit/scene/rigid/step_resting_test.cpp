@@ -28,7 +28,7 @@ TEST(RigidRest, AStackOfTenDriftsLessThanAMicrometreInTwoSeconds)
     EXPECT_LT(drift(world, scene), 1e-6);
 }
 
-/// Of cubes beside the middle, so that it tilts until its contacts have found its weight.
+/// Cubes beside the middle, so that the stack tilts until its contacts carry its weight.
 TEST(RigidRest, AStackOfFifteenIsAtRestAfterAFewTicks)
 {
     Description scene = stack_of(15);

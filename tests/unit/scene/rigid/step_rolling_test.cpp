@@ -19,7 +19,7 @@ BodyDescription ball_at(const glm::dvec3& place, double radius = half)
     return ball;
 }
 
-/// Lies along z.
+/// A capsule that lies along z.
 BodyDescription capsule_at(const glm::dvec3& place, double straight = 0.03)
 {
     BodyDescription capsule = cube_at(place);
@@ -29,7 +29,7 @@ BodyDescription capsule_at(const glm::dvec3& place, double straight = 0.03)
     return capsule;
 }
 
-/// How fast the lowest point of a ball on the platform slips.
+/// Returns the slip of the lowest point of a ball on the platform.
 glm::dvec3 slip(const BodyState& state)
 {
     return state.velocity.value + glm::cross(state.angular_velocity, glm::dvec3{0.0, -half, 0.0});
@@ -56,7 +56,7 @@ TEST(Rolling, ABallThatSlidesRollsAtFiveSeventhsOfItsSpeedFromTheMomentOfTheForm
         EXPECT_NEAR(slipping * tick, until, tick);
         const double went = speed * until - 0.5 * friction * gravity * until * until +
                             5.0 / 7.0 * speed * (0.2 - until);
-        // The tick in which it begins to roll is of first order.
+        // The error of the tick in which it begins to roll is of first order.
         EXPECT_NEAR(state.position.x(), went, friction * gravity * tick * tick);
         EXPECT_NEAR(state.position.y(), half, 1e-9);
     }
@@ -65,7 +65,7 @@ TEST(Rolling, ABallThatSlidesRollsAtFiveSeventhsOfItsSpeedFromTheMomentOfTheForm
 TEST(Rolling, DownASlopeIsAsSlowAsTheMomentOfInertiaSays)
 {
     for (const BodyDescription& round : {ball_at({0.0, half, 0.0}), capsule_at({0.0, half, 0.0})}) {
-        // Of a ball 2/5 m r^2: 5/7 of what slides without friction.
+        // For a ball 2/5 m r^2: 5/7 of the acceleration without friction.
         const double turns = inertia_of(round).z / (round.mass_kg * half * half);
         EXPECT_NEAR(turns, round.shape == Shape::sphere ? 0.4 : 0.469, 1e-3);
         for (const double slope : {0.1, 0.5, 0.9}) { // friction holds beyond
@@ -81,8 +81,8 @@ TEST(Rolling, DownASlopeIsAsSlowAsTheMomentOfInertiaSays)
                 const double rate = gravity * std::sin(angle) / (1.0 + turns);
                 const glm::dvec3 down{std::cos(angle), -std::sin(angle), 0.0};
                 const glm::dvec3 want = scene.bodies[0].position.value + 0.5 * rate * 0.25 * down;
-                // It falls onto the slope and finds the friction in the first tick: so much later
-                // it begins.
+                // It falls onto the slope and finds the friction in the first tick, so it begins
+                // this much later.
                 const double late = 1e-6 * tick_us;
                 EXPECT_LT(length(state.position.value - want), late * rate * 0.5) << round.name;
                 EXPECT_LT(length(state.velocity.value - 0.5 * rate * down), late * rate)

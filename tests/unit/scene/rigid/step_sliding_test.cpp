@@ -51,7 +51,7 @@ TEST(RigidFriction, TorsionStopsASpinWhenTheMomentOfTheFacesPressureSays)
 
 TEST(RigidFriction, WhatFrictionHoldsOnASlopeStaysAndWhatItDoesNotSlidesDown)
 {
-    for (const double slope : {0.25, 0.4}) { // friction holds up to 0.3
+    for (const double slope : {0.25, 0.4}) { // friction holds up to a slope of 0.3
         const double angle = std::atan(slope);
         Description scene = platform();
         scene.planes[0].normal = {std::sin(angle), std::cos(angle), 0.0};

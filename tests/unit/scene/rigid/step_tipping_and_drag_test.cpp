@@ -39,12 +39,12 @@ TEST(RigidStepper, DragActsFromTheFirstTickOnWhatIsPutOnAPlane)
     scene.bodies[0].locked = {};
     scene.bodies[0].velocity = {{0.2, 0.0, 0.0}};
     scene.hands.count = 0;
-    World world = World::freeze(scene, {.sleeping = false}).value(); // which ends what creeps
+    World world = World::freeze(scene, {.sleeping = false}).value(); // sleep would stop it
     for (int i = 0; i < 500; ++i) world.tick(); // 50 time constants of 0.1 kg / (10 N s/m)
     EXPECT_NEAR(world.body(0).position.x(), 0.2 * 0.01, 1e-14);
 }
 
-/// Whenever in the tick it hits the wall: what a bounce gives is dragged from then on.
+/// At any moment of the hit in a tick, the speed of the bounce decreases by drag from then on.
 TEST(RigidStepper, DragTakesItsPartOfABounceWithinTheTick)
 {
     Description scene = paper_scene();
@@ -64,7 +64,7 @@ TEST(RigidStepper, DragTakesItsPartOfABounceWithinTheTick)
         World world = World::freeze(walled).value();
         world.tick();
         const double end = -restitution * speed * std::exp(-rate * tick);
-        // That the speed falls evenly until the touch is of second order.
+        // An even decrease of the speed until the touch has an error of second order.
         EXPECT_NEAR(world.body(0).velocity.x(), end, 0.5 * rate * rate * tick * tick * speed);
     }
 }

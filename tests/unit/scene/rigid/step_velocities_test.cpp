@@ -15,8 +15,8 @@ BodyDescription tilted(BodyDescription body, double angle)
     return body;
 }
 
-// What the light one bore in a tick it does not bear in the next, and the sweeps end before such
-// forces have given way: they threw the heavy one up.
+// The light body does not bear in a tick the load of the last tick. The sweeps end before such
+// forces have given way, and such forces would throw the heavy body up.
 TEST(RigidVelocities, ForcesOfTheLastTickThatDoNotFitThrowNoHeavyBodyOffALightOne)
 {
     std::uint64_t anew = 0;

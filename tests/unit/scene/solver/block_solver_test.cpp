@@ -97,8 +97,8 @@ TEST(ContactBlock, NothingPullsAndAnImpulseOnOneSideTipsTheCube)
 
 TEST(ContactBlock, AContactThatOpensFastDoesNotStickOnItsLastPoint)
 {
-    // Taken from a cube that spins far above a plane. One point after the other would pull, and
-    // with the last one friction seems to hold.
+    // From a cube that spins far above a plane. If points are removed one after the other, one
+    // would pull, and with the last one friction seems to hold.
     ContactBlock block;
     block.count = 4;
     block.friction = 0.50267320756031642;

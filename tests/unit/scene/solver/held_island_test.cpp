@@ -44,8 +44,8 @@ TEST(EnvelopeLdl, SolvesWithinTheEnvelopeAndLeavesOutWhatDepends)
 
 constexpr double cube_side = 0.04, cube_mass = 0.1, fall = 9.81e-3;
 
-/// Cubes on each other and on the ground, each of which falls at one speed, turns a little, and
-/// pushes the one below by `start` at each corner.
+/// Stacked cubes on the ground. Each falls at the same speed, rotates a little, and pushes the cube
+/// below by `start` at each corner.
 struct Stack {
     std::vector<ContactBlock> blocks;
     std::vector<BodyResponse> responses;
@@ -78,7 +78,7 @@ struct Stack {
     }
     HeldIsland::Task task() { return {blocks, island, responses, motions}; }
 
-    /// The fastest that anything is, once the answer's change has been applied.
+    /// The largest speed in the island after the changes of the answer.
     double left_after(std::span<const ContactImpulse> answer)
     {
         for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -108,7 +108,7 @@ TEST(HeldIsland, BringsAStackToRestAtOnce)
         HeldIsland held{cubes, cubes};
         ASSERT_TRUE(held.begin(stack.task()));
         ASSERT_TRUE(held.solve(stack.task())) << cubes;
-        // Each carries those above it, beside what it pushed already.
+        // Each cube carries those above it, in addition to its earlier push.
         double weight = 0.0;
         for (std::uint32_t i = cubes; i-- > 0;) {
             weight += cube_mass * fall;
@@ -140,7 +140,7 @@ TEST(HeldIsland, HasNoAnswerWhereSomethingWouldHaveToPullOrSlip)
 {
     HeldIsland held{3, 3};
     Stack pulling{3};
-    pulling.motions[3].velocity.y = 1.0; // flies off
+    pulling.motions[3].velocity.y = 1.0; // flies away
     ASSERT_TRUE(held.begin(pulling.task()));
     EXPECT_FALSE(held.solve(pulling.task()));
     for (const double friction :
@@ -191,7 +191,7 @@ TEST(HeldIsland, LeavesAloneWhatWouldCostMoreThanSweeps)
     }
 }
 
-/// As part of the solver: it costs six sweeps, is checked, and needs room for that.
+/// As part of the solver, it costs six sweeps, is checked, and needs room for that.
 TEST(HeldIsland, TakesSixSweepsOfAnIslandThatHasThem)
 {
     for (const std::uint32_t sweeps_max : {12U, 31U}) {
@@ -211,7 +211,7 @@ TEST(HeldIsland, TakesSixSweepsOfAnIslandThatHasThem)
             for (std::uint32_t i = 1; i <= cubes; ++i)
                 EXPECT_LT(glm::length(solver.end_motion(i).velocity), 1e-12) << i;
         } else {
-            EXPECT_EQ(outcome.sweeps, 11U); // two at a time
+            EXPECT_EQ(outcome.sweeps, 11U); // ordinary sweeps, two at a time
             EXPECT_GT(outcome.change, 1e-10);
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Pairing, history and trap: what the page's figures are made of.
+// Pairing, history and trap, from which the page's figures follow.
 #include "web/core/history.hpp"
 #include "web/core/pairing.hpp"
 #include "web/core/trap.hpp"

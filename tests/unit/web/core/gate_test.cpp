@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Who is let in: docs/formats/live.md. 0 stands for "let in".
+// Requests that are admitted: docs/formats/live.md. 0 stands for "admitted".
 #include "web/core/gate.hpp"
 
 #include <gtest/gtest.h>

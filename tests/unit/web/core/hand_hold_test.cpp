@@ -83,7 +83,7 @@ TEST(WebHand, LeavesOutPlacesThatComeTooOften)
     HandHold hold;
     int counted = 0;
     for (base::Duration at{0}; at < 1s; at += 100us) {
-        // By turns with letting go, and from several pages: none of it is heard more often.
+        // Alternating with releases, and from several pages: no place is accepted more often.
         if (at.count() % 3 == 0) static_cast<void>(hold.on_message(1, nothing, start + at));
         const auto answer = hold.on_message(at.count() % 2 == 0 ? 1 : 2, place, start + at);
         if (answer == Answer::moved || answer == Answer::taken) ++counted;

@@ -11,7 +11,7 @@ namespace hapnet::web::visitors_test {
 
 namespace {
 
-/// Who was closed, in turn.
+/// The closed connections, in turn.
 struct Door {
     std::vector<std::string> closed;
 

@@ -81,7 +81,7 @@ void expect_fit(const std::vector<double>& delays, const Distribution& distribut
         [&](double x) { return math::cdf(math::complement(distribution, x)); });
 }
 
-// Delays of 100 s, so that rounding to a nanosecond is nothing to a test of 10^7 of them.
+// The delays are 100 s, so that rounding to a nanosecond does not matter in a test of 10^7 delays.
 
 TEST(Laws, UniformDelaysAreUniform)
 {
@@ -124,7 +124,7 @@ TEST(Laws, GammaDelaysAreGamma)
 
 TEST(Laws, GammaDelaysOfALargeShapeAreGammaToo)
 {
-    // Few: each value of the distribution function takes Boost some microseconds here.
+    // Few values, because each value of the distribution function takes Boost microseconds here.
     expect_fit(draw({GammaLaw{100s, 1s}}, 10'000), math::gamma_distribution<>{10'000.0, 1e7});
 }
 
@@ -151,7 +151,7 @@ TEST(Laws, ACorrelationTimeLeavesTheLawAsItIs)
     }
 }
 
-/// The normal scores of a uniform law: the Gaussian process behind it.
+/// The normal scores of a uniform law's delays, which are the underlying Gaussian process.
 std::vector<double> scores(base::Duration tau, const std::vector<base::Duration>& arrivals)
 {
     DelayProcess process{{UniformLaw{100s, 15s}, tau}, base::Seed{7}.stream("up/jitter")};
@@ -205,7 +205,7 @@ TEST(Laws, WhatIsNewInACorrelatedDrawIsIndependentNoiseHoweverFarTheArrivalsLieA
     expect_fit(noise, math::normal_distribution<>{});
 }
 
-/// Both tails are asked for by the smaller share.
+/// Both tails are computed from the smaller share.
 template <typename Distribution>
 double worst_quantile(const DelayLaw& law, const Distribution& distribution)
 {

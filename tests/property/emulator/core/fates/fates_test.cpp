@@ -9,7 +9,7 @@
 namespace hapnet::emulator {
 namespace {
 
-/// Draws one after the other.
+/// Draws one value after the other.
 class Draws {
 public:
     Draws(std::string_view name, std::uint64_t round)
@@ -20,7 +20,7 @@ public:
     {
         return static_cast<std::uint32_t>(stream_.below(bound, round_, draw_++));
     }
-    /// Small and large ones, all equally often.
+    /// Draws small and large times equally often.
     base::Duration time()
     {
         const auto bits = stream_.bits(round_, draw_++) >> below(64);

@@ -78,7 +78,7 @@ TEST(Laws, LoseWhatTheirTheoryStates)
         const auto after_loss = static_cast<double>(tally.pairs(true, true));
         const auto runs = static_cast<double>(tally.pairs(false, true));
         ASSERT_TRUE(theory.mean_run) << name_of(law);
-        // Run lengths vary by about their mean, and follow each other as much as losses do.
+        // The deviation of run lengths is about their mean, and runs are correlated like losses.
         const double runs_sd = std::sqrt((1 + theory.variance_inflation) / std::max(runs, 1.0));
         EXPECT_NEAR(static_cast<double>(tally.losses()) / std::max(runs, 1.0), *theory.mean_run,
                     *theory.mean_run * (5 * runs_sd + 100 / n))
@@ -205,7 +205,7 @@ TEST(GilbertElliott, HasTheClosedFormsThatWereMeasuredOnALiveKernel)
 
 TEST(Laws, JudgeTheSameWithEveryCompilerAndOptimisation)
 {
-    // FNV-1a over what all laws say of 10 000 datagrams each.
+    // FNV-1a over the fates of 10 000 datagrams under each law.
     const auto hash_of = [](auto is_meant) {
         std::uint64_t hash = 0xcbf29ce484222325u;
         for (const LossLaw& law : laws()) {

@@ -14,16 +14,16 @@
 namespace hapnet::emulator::test {
 
 inline constexpr base::Duration spacing = std::chrono::milliseconds{1};
-inline constexpr double alpha = 1e-6; // each of some hundred tests fails a right law so often
+inline constexpr double alpha = 1e-6; // the rate of false failures of each of some hundred tests
 
-/// How many virtual datagrams: more of them in a soak.
+/// The number of virtual datagrams; more in a soak.
 inline std::uint64_t packets()
 {
     const char* text = std::getenv("HAPNET_SOAK_PACKETS");
     return text != nullptr ? std::stoull(text) : 1'000'000;
 }
 
-/// What one law does to datagrams that come 1 ms apart.
+/// The losses of one law among datagrams that come 1 ms apart.
 inline tools::LossRecord simulated(const LossLaw& law, std::uint64_t count, std::uint64_t seed = 42,
                                    const std::string& direction = "up")
 {

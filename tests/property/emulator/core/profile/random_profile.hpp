@@ -13,7 +13,7 @@
 
 namespace hapnet::emulator {
 
-/// Draws profiles from anywhere in their space, possible ones only.
+/// Draws profiles from the whole space of valid profiles.
 class RandomProfile {
 public:
     explicit RandomProfile(std::uint64_t seed) : stream_{base::Seed{seed}.stream("profiles")} {}
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    /// Ascending by their names, each with something.
+    /// Paths in ascending order of their names, each with at least one setting.
     std::vector<PathPatch> paths()
     {
         std::vector<PathPatch> drawn;
@@ -181,7 +181,7 @@ private:
         return drawn;
     }
 
-    /// A stage or law of which nothing is wrong.
+    /// Draws a stage or law until it is valid.
     template <typename T, typename As = T>
     T possible()
     {

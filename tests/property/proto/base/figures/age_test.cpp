@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// When the newest was sent of what has arrived by then, or of the first `count` arrivals.
+/// The send time of the newest datagram that has arrived by then, or of the first `count` arrivals.
 TimePoint newest_by(const std::vector<RandomArrival>& arrivals, TimePoint time, std::size_t count)
 {
     TimePoint newest = TimePoint::min();
@@ -22,8 +22,8 @@ TimePoint newest_by(const std::vector<RandomArrival>& arrivals, TimePoint time, 
     return newest;
 }
 
-/// Times are whole milliseconds, and the age is a straight line within each: its mean there is that
-/// in the middle.
+/// Times are whole milliseconds, and the age is linear within each, so its mean there is its middle
+/// value.
 double mean_ms(const std::vector<RandomArrival>& arrivals, TimePoint from, TimePoint to)
 {
     double sum = 0.0;

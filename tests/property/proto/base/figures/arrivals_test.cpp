@@ -9,7 +9,7 @@
 namespace hapnet::base {
 namespace {
 
-/// How often these numbers came before this place.
+/// Counts arrivals of this number before this place.
 std::size_t earlier(const std::vector<RandomArrival>& arrivals, std::size_t place, auto is_meant)
 {
     const auto here = arrivals.begin() + static_cast<std::ptrdiff_t>(place);

@@ -63,7 +63,7 @@ inline std::vector<RandomArrival> without_copies(const std::vector<RandomArrival
     return firsts;
 }
 
-/// Whether none of the arrivals before this one has a higher number.
+/// True if none of the arrivals before this one has a higher number.
 inline bool is_in_order(const std::vector<RandomArrival>& arrivals, std::size_t place)
 {
     const auto here = arrivals.begin() + static_cast<std::ptrdiff_t>(place);

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint opened{1h};
 
-/// One that is read each millisecond.
+/// A device that is read each millisecond.
 struct ReadJoints {
     JointOmni omni;
     base::TimePoint now = opened;
@@ -80,7 +80,7 @@ TEST(JointOmni, GivesWayToAForceInTheHand)
         reader.omni.apply(ungoverned({{0.0, 2.0, 0.0}}));
         reader.read_for(1ms);
     }
-    // 2 N on 200 N/m, less friction, which may also have been on the other side before.
+    // 2 N on 200 N/m, less friction, which may have acted in the other direction before.
     EXPECT_NEAR(reader.sample.hip.y() - before.y(), 0.010, 2 * 0.26 / 200);
 }
 
@@ -93,7 +93,7 @@ TEST(JointOmni, ReportsNoPositionsButThoseOfWholeCounts)
     const omni::JointRange one_count{0.0, omni::radians_per_count};
     const glm::dvec3 off =
         omni::joints_of(reader.sample.hip).angles - reader.omni.plant().joints().angles;
-    // Half a count where it is, and half a count where it was docked.
+    // Half a count at its place, and half a count at the dock.
     for (const int joint : {0, 1, 2}) EXPECT_LE(std::abs(off[joint]), one_count.most);
 }
 

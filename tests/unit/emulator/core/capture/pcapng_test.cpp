@@ -74,7 +74,7 @@ TEST(Comments, SayHowLateADatagramLeft)
     EXPECT_EQ(departure_comment(7'500ns, true), "late 8 us, copy");
 }
 
-/// What tshark prints; nullopt when there is none.
+/// Returns the output of tshark; nullopt when it is not installed.
 std::optional<std::string> dissected(const std::string& capture)
 {
     if (std::system("command -v tshark >/dev/null 2>&1") != 0) return std::nullopt;
@@ -104,7 +104,7 @@ TEST(Capture, HasTheMarksOfTheDatagram)
     const auto header = [&](std::size_t count) {
         std::string bytes;
         append_packet(bytes, packet, 0s, "");
-        return bytes.substr(28, count); // behind that of the block
+        return bytes.substr(28, count); // after the block's header
     };
     EXPECT_EQ(header(2), "\x45\xbb");
     EXPECT_EQ(header(9).back(), '\x11');
@@ -119,7 +119,7 @@ TEST(Capture, IsUnderstoodByTshark)
 {
     const std::vector<std::byte> hello{std::byte{'h'}, std::byte{'e'}, std::byte{'y'}};
     const std::vector<std::byte> large(CapturedPacket::payload_bytes_max - 20, std::byte{0xa5});
-    // The words of this one add up to a checksum of 0, which UDP writes as 0xffff.
+    // The words of this packet add up to a checksum of 0, which UDP writes as 0xffff.
     const std::vector<std::byte> zero_sum{std::byte{0xb5}, std::byte{0x1f}};
     const base::TimePoint time{1'700'000'000s + 123'456'789ns};
     std::string bytes;
@@ -132,7 +132,7 @@ TEST(Capture, IsUnderstoodByTshark)
     append_packet(bytes, {a, true, time, mapped(1, 7000), v4(9, 7001), {}}, 0s, "late 0 us");
     append_packet(bytes, {a, true, time, mapped(1, 7000), v6(9, 7001), hello}, 0s, "late 1 us");
     append_packet(bytes, {a, false, time, v4(1, 7000), v4(9, 7001), zero_sum}, 0s, "x");
-    // A packet as it came, not as this would write it.
+    // A packet as it was received, not as this code would write it.
     constexpr std::array<unsigned char, 32> words{
         0x45, 0x2e, 0, 32, 0, 1, 0, 0, 64, 17, 0,    0,    10,  0,   0,   1,
         10,   0,    0, 2,  0, 7, 0, 9, 0,  12, 0x13, 0x01, 'd', 'a', 't', 'a'};

@@ -186,7 +186,7 @@ TEST(DelayTheory, MomentsAreThoseOfTheQuantiles)
             sum += base::to_seconds(distance);
             squares += base::to_seconds(distance) * base::to_seconds(distance);
         }
-        // Midpoints miss the last half part of a tail: less than 0.5 % of the moments here.
+        // Midpoints leave out the last half part of a tail: less than 0.5 % of the moments here.
         const double sd = std::sqrt(squares / parts);
         EXPECT_NEAR(sum / parts, 0.0, 5e-3 * sd);
         EXPECT_NEAR(sd, base::to_seconds(theory.sd().value()), 5e-3 * sd);

@@ -181,7 +181,7 @@ TEST(TraceLaw, BeginsWithTheFirstDatagramAtItsOffsetAndGoesOnThroughAChange)
     sampler.change(law);
     EXPECT_EQ(sampler.at({2, 96, 1s + 15ms}), 20ms);
     law.timing.offset = 0ms;
-    sampler.change(law); // another trace begins anew
+    sampler.change(law); // a new trace starts from its beginning
     EXPECT_EQ(sampler.at({3, 96, 2s}), 10ms);
 }
 
@@ -190,7 +190,7 @@ TEST(TraceLaw, HasTheMomentsOfItsStraightLines)
     TraceLaw law{"x", *parse_delay_trace("t_ms,delay_ms\n0,0\n10,12\n20,0\n30,12\n")};
     law.interpolate = Interpolation::linear;
     EXPECT_EQ(law.moments().mean, 6ms);
-    // Of a uniform law, but for 1 / 16^2 of its variance, by which steps fall short.
+    // The sd of a uniform law, less 1 / 16^2 of its variance, which steps lack.
     EXPECT_NEAR(base::to_nanoseconds(*law.moments().sd), 12e6 / std::sqrt(12.0), 0.01e6);
     EXPECT_EQ(law.steps().back().share, 1.0);
 }

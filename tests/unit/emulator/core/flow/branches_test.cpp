@@ -43,7 +43,7 @@ std::vector<Fate> fates_of(EmulatedPath& path, int count)
     return fates;
 }
 
-/// When what is in flight in all of them leaves, by the number of the path and in that order.
+/// The departures of all datagrams in flight, by the number of the path and in that order.
 std::vector<std::pair<std::size_t, base::Duration>> departures(Paths& paths)
 {
     std::vector<std::pair<std::size_t, base::Duration>> left;

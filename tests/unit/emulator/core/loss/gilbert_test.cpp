@@ -42,7 +42,7 @@ TEST(Gilbert, WantsBurstsLongEnoughForTheirShare)
 
 TEST(GilbertElliott, KeepsItsStateThroughAChangeOfItsNumbers)
 {
-    // Bad and never to leave it: a chain that began anew could be good.
+    // Bad from the start and never left. A chain that began again could be good.
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         LossProcess process{GilbertElliott{100_percent, 0_percent, 0_percent, 100_percent},
                             base::Seed{seed}.stream("up/loss")};

@@ -14,7 +14,7 @@ inline Packet packet(std::uint64_t number, base::Duration spacing = std::chrono:
     return {number, 96, spacing * static_cast<base::Duration::rep>(number)};
 }
 
-/// The judgements of datagrams that come 1 ms apart, as a text of 0 and 1.
+/// The fates of datagrams that come 1 ms apart, as a text of 0 and 1.
 inline std::string losses(LossProcess& process, std::uint64_t from, std::uint64_t count)
 {
     std::string text;
@@ -32,7 +32,7 @@ inline std::string losses(const LossLaw& law, std::uint64_t count, std::uint64_t
 
 inline base::RandomStream stream() { return base::Seed{42}.stream("up/loss"); }
 
-/// Why the law cannot be done; empty: it can.
+/// The reason why the law is impossible; empty: it is possible.
 inline std::string refusal(const LossLaw& law)
 {
     const auto valid = validate(law);

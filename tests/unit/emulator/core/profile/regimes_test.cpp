@@ -50,7 +50,7 @@ std::string refusal_of(std::string_view text)
     return profile ? "" : profile.error().message;
 }
 
-/// What the settings make of the path of a profile, as the control socket does it.
+/// Returns a profile's path with the settings applied, as the control socket does it.
 base::Result<Path> set_on(const Profile& profile, std::string_view key, std::string_view value)
 {
     const auto setting = parse_setting(key, value, {}, with_flows({}, profile.flows));

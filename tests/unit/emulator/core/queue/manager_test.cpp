@@ -32,7 +32,7 @@ struct Offered {
     bool is_ect = false;
 };
 
-/// What became of a datagram: how long it waited, or that the law dropped it, and when.
+/// The fate of a datagram: how long it waited, or that the law dropped it, and when.
 struct Outcome {
     std::uint64_t number = 0;
     bool is_dropped = false;
@@ -67,7 +67,7 @@ std::vector<Offered> load(std::uint64_t seed, double spacing_ms)
     return offered;
 }
 
-/// A line of `rate` with a queue, as plainly as can be: `Law` gets enqueue() and dequeue().
+/// A line of `rate` with a queue, as simply as possible: `Law` gets enqueue() and dequeue().
 template <typename Law>
 class PlainLine {
 public:
@@ -154,7 +154,7 @@ Outcomes run(const QueueControl& control, const base::RandomStream& stream,
     return outcomes;
 }
 
-/// By number, since the two report at different moments.
+/// Sorted by number, because the two report at different moments.
 Outcomes sorted(Outcomes outcomes)
 {
     const auto by_number = [](const auto& a, const auto& b) { return a.number < b.number; };
@@ -201,7 +201,7 @@ std::vector<Offered> load_of_flows(std::uint64_t seed, double spacing_ms)
     const auto chance = base::Seed{seed}.stream("flows");
     for (std::uint64_t i = 0; i < offered.size(); ++i) {
         const double part = chance.uniform(i);
-        // One that sends half of all, some of little, and now and then a new one.
+        // One flow sends half of all, some send little, and sometimes a new one begins.
         offered[i].flow = part < 0.5 ? 3 : static_cast<std::uint32_t>(chance.bits(i, 1) % 40);
         offered[i].is_ect = offered[i].flow % 3 == 0 && chance.bits(i, 2) % 2 == 0;
     }
@@ -261,7 +261,7 @@ TEST(FqCodel, TakesRoomFromTheLongestQueue)
     }
 }
 
-/// What the law is for: a flow of little does not wait for one that fills the line.
+/// The purpose of the law: a flow with little traffic does not wait for one that fills the line.
 TEST(FqCodel, LetsAFlowOfLittlePassAtOnce)
 {
     std::vector<Offered> offered;
@@ -344,7 +344,7 @@ TEST(Pie, IsThatOfTheRfcDrawByDraw)
     EXPECT_GT(drops, 1000U);
 }
 
-/// CoDel needs a while against a sender that does not listen.
+/// CoDel needs time against a sender that does not respond.
 TEST(QueueLaws, KeepAQueueShorterThanDropTail)
 {
     const auto stream = base::Seed{1}.stream("up/queue");
@@ -390,7 +390,7 @@ TEST(QueueControl, RefusesWhatItCannotDo)
         EXPECT_EQ(error({.law = law, .interval = 100ms}),
                   "interval belongs to codel or fq-codel: remove it, or use one of these laws");
     }
-    // Also with the values that they have unless given.
+    // Also with the default values.
     for (const QueueLaw law : {QueueLaw::drop_tail, QueueLaw::codel, QueueLaw::pie}) {
         const auto refusal = "flows and quantum belong to fq-codel: remove them, or use that law";
         EXPECT_EQ(error({.law = law, .flows = 1024}), refusal);

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-// The laws of queues as plainly as their RFCs write them, to compare ours with.
+// The laws of queues, written as simply as in their RFCs, for comparison with ours.
 
 namespace hapnet::emulator::rfc {
 

@@ -38,8 +38,8 @@ std::vector<Opportunities::Moment> moments_of(const std::vector<base::Duration>&
     return moments;
 }
 
-/// Mahimahi's LinkQueue (src/frontend/link_queue.cc) in its own words, but for its clock, which is
-/// in nanoseconds here, and its queue, which is endless. Times since the trace began.
+/// Mahimahi's LinkQueue (src/frontend/link_queue.cc) with its own names, but with a clock in
+/// nanoseconds and an endless queue. Times since the trace began.
 class ReferenceLinkQueue {
 public:
     ReferenceLinkQueue(std::vector<base::Duration> schedule, bool repeat)
@@ -139,7 +139,7 @@ Departures of_bottleneck(const RateTraceLaw& law, const std::vector<Arrival>& ar
     return departures;
 }
 
-/// A schedule that is like one of the recorded ones: a rate that walks, pauses, several in a ms.
+/// A schedule like the recorded ones: a random walk of the rate, pauses, several in a ms.
 std::vector<base::Duration> cellular(std::uint64_t seed)
 {
     const auto chance = base::Seed{seed}.stream("schedule");
@@ -165,7 +165,7 @@ std::vector<Arrival> traffic(std::uint64_t seed)
     base::Duration at{static_cast<base::Duration::rep>(chance.bits(0) % 50'000'000)};
     for (std::uint64_t i = 0; i < 1500; ++i) {
         const auto draw = chance.bits(i, 1);
-        // Some at the very moments of opportunities, some in clumps, some larger than one.
+        // Some arrive exactly at opportunities, some in clumps; some are larger than one.
         const std::size_t bytes = draw % 5 == 0 ? 4000 : 40 + draw % 1464;
         arrivals.push_back({at, bytes});
         const auto step = chance.bits(i, 2) % 2'500'000;
@@ -211,7 +211,7 @@ TEST(RateTrace, CarriesTheRestOfAnOpportunityToWhatWaits)
 
 TEST(RateTrace, HasAsManyOpportunitiesAsAFastLineNeeds)
 {
-    // 25 of 1504 B each millisecond are 300.8 Mbit/s; 1.5 million of them in a minute.
+    // 25 of 1504 B each millisecond are 300.8 Mbit/s, or 1.5 million a minute.
     constexpr int each_ms = 25;
     std::string text;
     for (int ms = 1; ms <= 60'000; ++ms) {

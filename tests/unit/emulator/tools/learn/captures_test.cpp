@@ -21,7 +21,7 @@ using namespace base::literals; // NOLINT(google-build-using-namespace): literal
 
 constexpr base::Duration begin = 1'700'000'000s;
 
-/// Two captures, and what is in them.
+/// Two captures, and their contents.
 struct BothEnds {
     PcapFile a;
     PcapFile b;
@@ -29,8 +29,8 @@ struct BothEnds {
     MeasuredWay down;
 };
 
-/// What two hosts capture that send to each other every 20 ms through a relay with an address of
-/// its own. The clock of b is fast by `fast`.
+/// The captures of two hosts that send to each other every 20 ms through a relay with an address of
+/// its own. The clock of b is ahead by `fast`.
 BothEnds captured(const Conditions& up, const Conditions& down, std::uint64_t count,
                   base::Duration fast = {})
 {
@@ -56,7 +56,7 @@ BothEnds captured(const Conditions& up, const Conditions& down, std::uint64_t co
     return ends;
 }
 
-/// Without what is lost before the first and behind the last that arrived.
+/// Removes losses before the first and after the last datagram that arrived.
 MeasuredWay trimmed(const MeasuredWay& way)
 {
     MeasuredWay inner;
@@ -105,7 +105,7 @@ TEST(Captures, OfBothEndsTellEveryDelayAndEveryLossOfEachWay)
     EXPECT_EQ(found->up->spacing, 20ms);
     EXPECT_TRUE(says(*found, "The clocks of the two ends are taken for one"));
     EXPECT_TRUE(says(*found, "UDP 10.0.0.1:7000 > 10.0.0.2:7001"));
-    // In the other order, up is down.
+    // In the other order, up and down are swapped.
     EXPECT_EQ(measured(ends.b, ends.a)->down->delays, found->up->delays);
 }
 

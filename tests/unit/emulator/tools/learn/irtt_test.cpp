@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// As irtt 0.9 writes it (irtt-client(1)), with members that are passed over.
+/// The output of irtt 0.9 (irtt-client(1)), with members that are ignored.
 const std::string head = R"({
     "version": { "irtt": "0.9.0", "protocol": 1, "json_format": 1 },
     "config": { "params": { "duration": 600000000, "interval": 200000000, "clock": "both" },
@@ -53,8 +53,8 @@ TEST(Irtt, TellsBothWaysAndOnWhichOneADatagramWasLost)
     EXPECT_FALSE(found->mixes_losses);
     EXPECT_EQ(found->up->lost, (std::vector{false, true, false, false}));
     EXPECT_EQ(found->up->delays[3], 11ms);
-    EXPECT_FALSE(found->up->delays[2]); // it got there, and when is not known
-    EXPECT_EQ(found->down->lost, (std::vector{false, true, false})); // one was never sent down
+    EXPECT_FALSE(found->up->delays[2]); // it arrived, at an unknown time
+    EXPECT_EQ(found->down->lost, (std::vector{false, true, false})); // one never got a reply
     EXPECT_EQ(found->down->delays[2], 22ms);
     EXPECT_EQ(found->up->spacing, 200ms);
 }

@@ -23,7 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 using namespace base::literals; // NOLINT(google-build-using-namespace): literals only
 
-/// What a sender at even distances would measure of one way under these conditions.
+/// The measurement of one way by a sender at even distances under these conditions.
 MeasuredWay measured(const Conditions& conditions, std::size_t count, std::uint64_t seed = 42,
                      base::Duration spacing = 20ms)
 {
@@ -126,8 +126,8 @@ TEST(LearnDelays, FindTheParametersOfANormalLawAndItsCorrelationTime)
     const auto data =
         measured({.delay = constant(40ms), .jitter = {NormalLaw{{}, 3ms}, 100ms}}, 20'000);
     const auto fit = fit_delays(data);
-    // With the correlation rho = exp(-0.2) of neighbours, 20 000 are worth n (1 - rho) / (1 + rho)
-    // = 1993 for the mean and n (1 - rho^2) / (1 + rho^2) = 3948 for the sd.
+    // With the correlation rho = exp(-0.2) of neighbours, 20 000 values count like n (1 - rho) / (1
+    // + rho) = 1993 for the mean and n (1 - rho^2) / (1 + rho^2) = 3948 for the sd.
     const auto& normal = of_name(fit, "normal");
     EXPECT_GE(normal.p_value.value_or(0.0), 1e-3);
     EXPECT_NEAR(base::to_seconds(normal.base), 0.040, 4.0 * 0.003 / std::sqrt(1993.0));
@@ -238,7 +238,7 @@ LearnSettings with_table(const char* way, const MeasuredWay& measured)
     return settings;
 }
 
-/// Values that no law has: three steps.
+/// Values that fit no law: three steps.
 MeasuredWay three_steps(std::size_t count)
 {
     MeasuredWay way{.spacing = 100ms};
@@ -263,14 +263,14 @@ TEST(Learn, DrawsFromTheMeasuredValuesWhereNoLawIsNearThem)
     EXPECT_LE(like.model_apart, like.halves_apart + 0.03);
     EXPECT_NE(to_text(*lesson).find(R"(law = "table", file = "measured.csv")"), std::string::npos)
         << to_text(*lesson);
-    // Its values come out again.
+    // The learned law gives these values again.
     const auto again = played(lesson->profile.path.up, 2000, 100ms, 1ms);
     EXPECT_LE(distance_between(again, way), 0.03);
 }
 
 TEST(Learn, ReplaysAMeasurementWhoseCorrelationNoDrawHas)
 {
-    MeasuredWay way{.spacing = 100ms}; // a period of 15 s, as of a satellite's handover
+    MeasuredWay way{.spacing = 100ms}; // a period of 15 s, like a satellite's handover
     for (int i = 0; i < 6000; ++i) way.add(i % 150 < 75 ? 20ms : 40ms, i % 150 == 0);
     const auto lesson = learn({.up = way}, with_table("up", way));
     ASSERT_TRUE(lesson) << lesson.error().message;
@@ -391,7 +391,7 @@ TEST(LearnRegimes, FindsTwoRegimesOfFourThousandEpisodes)
 
 TEST(LearnRegimes, KeepsTheSlowDelaysOfAGoodRegimeApartFromThoseOfARareBadOne)
 {
-    // Bad are 4.8 % of the time, and 3.4 % of what arrives.
+    // Bad are 4.8 % of the time, and 3.4 % of the arrivals.
     const Conditions truth{.order = Order::free,
                            .regimes = {{Regime{"good",
                                                3s,
@@ -408,7 +408,7 @@ TEST(LearnRegimes, KeepsTheSlowDelaysOfAGoodRegimeApartFromThoseOfARareBadOne)
     const auto way = played(truth, 200'000, 1ms, 1us);
     const auto fit = fit_regimes(way, 2);
     ASSERT_TRUE(fit);
-    // No delay of 20 ms + gamma(1 ms, 0.5 ms) reaches 60 ms, and none of the others is below 80.
+    // No delay of 20 ms + gamma(1 ms, 0.5 ms) reaches 60 ms, and no other delay is below 80 ms.
     for (std::size_t i = 0; i < way.delays.size(); ++i) {
         if (!way.delays[i]) continue;
         ASSERT_EQ(fit->regimes[1].is_own[i], *way.delays[i] > 60ms ? 1 : 0) << "row " << i;

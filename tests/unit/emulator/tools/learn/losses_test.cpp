@@ -28,8 +28,8 @@ std::vector<bool> drawn(const LossLaw& law, std::uint64_t count, std::uint64_t s
     return lost;
 }
 
-// Bursts of 20 datagrams on average, 60 % of them lost, arrivals within them in runs of 3, and
-// losses alone outside.
+// Bursts of 20 datagrams on average, with 60 % of them lost and arrivals within them in runs of 3,
+// and isolated losses outside.
 const FourState salsano{.share = 4_percent,
                         .burst = 20.0,
                         .density = 60_percent,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// Captures as tests want them, written by their formats: big-endian headers of IP, and files.
+// Builds captures for tests by the formats' rules: big-endian headers of IP, and files.
 
 namespace hapnet::test {
 
@@ -79,7 +79,7 @@ public:
     {
         bytes_.u32(0xa1b2'3c4d).u16(2).u16(4).u32(0).u32(0).u32(65'535).u32(link);
     }
-    /// `at` since 1970; of a packet of which only `captured` bytes were kept.
+    /// `at`: time since 1970. `captured`: the bytes that were kept.
     void add(base::Duration at, const std::string& packet, std::size_t captured = std::string::npos)
     {
         const auto kept = packet.substr(0, captured);
@@ -93,7 +93,7 @@ private:
     PacketBytes bytes_;
 };
 
-/// A payload of 24 bytes that no other number has.
+/// A payload of 24 bytes, unique to this number.
 inline std::string numbered_payload(std::uint64_t number)
 {
     return PacketBytes{}.raw("payload ").u32(number >> 32).u32(number).raw("12345678").text();

@@ -49,7 +49,7 @@ TEST(ReadPing, ReadsIputilsInEachLanguageThatItSpeaks)
     struct Language {
         std::string header, lines, summary;
     };
-    // Words as in the translations of iputils: of the time, its unit, and the order of the summary.
+    // Words as in iputils' translations: for the time and its unit, and the order of the summary.
     for (
         const auto& [header, lines, summary] : std::vector<Language>{
             {"PING h (192.0.2.7) 56(84) bytes of data.\n",
@@ -105,7 +105,7 @@ TEST(ReadPing, CountsFromZeroWhereTheProgramDoes)
              "4 packets transmitted, 2 packets received, 50% packet loss\n"
              "round-trip min/avg/max = 0.5/0.625/0.75 ms\n"),
         (Delays{-1, 0.5, 0.75, -1}));
-    // macOS, which tells of a time-out; the last one is one, too.
+    // macOS, which reports a time-out; the last one timed out, too.
     EXPECT_EQ(told("PING h (192.0.2.7): 56 data bytes\n"
                    "64 bytes from 192.0.2.7: icmp_seq=0 ttl=54 time=12.25 ms\n"
                    "Request timeout for icmp_seq 1\n"
@@ -121,7 +121,7 @@ TEST(ReadPing, CountsFromZeroWhereTheProgramDoes)
     EXPECT_EQ(told("PING ::1 (::1) 56 data bytes\n"
                    "64 bytes from ::1: icmp_seq=2 ttl=64 time=0.25 ms\n"),
               (Delays{-1, 0.25}));
-    // Solaris: numbers with a point behind them, and no time to live.
+    // Solaris: numbers followed by a point, and no time to live.
     EXPECT_EQ(told("PING h: 56 data bytes\n64 bytes from h (192.0.2.7): icmp_seq=0. time=3.5 ms\n"
                    "64 bytes from h (192.0.2.7): icmp_seq=2. time=4. ms\n"),
               (Delays{3.5, -1, 4}));
@@ -165,7 +165,7 @@ TEST(ReadPing, ReadsWindowsInSeveralLanguagesWithTimeOutsAsLosses)
                    "Approximate round trip times in milli-seconds:\r\n"
                    "    Minimum = 0ms, Maximum = 25ms, Average = 16ms\r\nControl-C\r\n"),
               expected);
-    // The bytes are those of the code pages 850 and 866, which are not UTF-8.
+    // The bytes are in the code pages 850 and 866, not in UTF-8.
     EXPECT_EQ(told(block("Ping wird ausgef\x81hrt f\x81r h [192.0.2.7] mit 32 Bytes Daten:",
                          "Antwort von 192.0.2.7: Bytes=32 Zeit=25ms TTL=53",
                          "Antwort von 192.0.2.7: Bytes=32 Zeit<1ms TTL=53",

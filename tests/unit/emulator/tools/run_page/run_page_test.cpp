@@ -194,7 +194,7 @@ TEST(RunPage, DrawsWhatWasMeasuredOverTimeInTheMiddleOfEachStretch)
     EXPECT_EQ(measured("delay-over-time")["points"].dump(), "[[1.0,20.0]]");
     EXPECT_EQ(measured("delay-over-time")["band"].dump(), "[[1.0,10.0,40.0]]");
     EXPECT_EQ(measured("loss-over-time")["points"].dump(), "[[1.0,25.0]]");
-    // 2 Mbit in 2 s, and in the one second that the run lasted of the other stretch.
+    // 2 Mbit in 2 s, and in the one second of the second stretch before the run's end.
     EXPECT_EQ(measured("rate-over-time")["points"].dump(), "[[1.0,1.0],[2.5,2.0]]");
     EXPECT_EQ(measured("queue-over-time")["points"].dump(), "[[1.0,4.0],[2.5,4.0]]");
 }
@@ -318,7 +318,7 @@ TEST(LossRuns, FallAsAGeometricDistributionWithTheLawsMean)
                      .spacing_s = 1e-3};
     const auto series = [&] { return page::json_of(*loss_runs_figure(run))["series"]; };
     ASSERT_EQ(series().size(), 2U);
-    // Half of all are lost: so is half of the runs' continuations.
+    // Half of all are lost, so half of the runs continue.
     EXPECT_EQ(series()[1]["points"].dump(), "[[1.0,1.0],[2.0,0.5],[3.0,0.25]]");
     run.conditions = nullptr;
     EXPECT_EQ(series().size(), 1U);

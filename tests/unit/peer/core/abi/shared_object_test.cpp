@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What the algorithms of these tests keep in their memory.
+/// The data in the memory of these tests' algorithms.
 struct Notes {
     double number;
     std::uint32_t heard, forgotten, from;
@@ -46,7 +46,7 @@ void forget(void* state, std::uint32_t other)
     notes(state).from = other;
 }
 
-/// Puts the body where the other has it, with as many newtons on the hand as were heard of.
+/// Puts the body where the other peer has it, with the received force on the hand.
 void tick(void* state, const hapnet_world* world, const hapnet_situation* now,
           hapnet_outcome* outcome)
 {
@@ -86,7 +86,7 @@ base::Result<SharedObject> loaded(const hapnet_algorithm& algorithm, const char*
         std::make_shared<const hapnet_algorithm>(algorithm));
 }
 
-/// A peer's copy of the paper's scene, and one other that was heard.
+/// A peer's copy of the paper's scene, and one other peer that was heard.
 struct Play {
     scene::World world = scene::World::freeze(scene::paper_scene()).value();
     Remote remote{{.id = 7}};
@@ -134,7 +134,7 @@ TEST(SharedObject, TicksTheWorldForAnAlgorithmThatDoesNot)
     const Outcome outcome = algorithm.tick(play.world, play.situation());
     EXPECT_EQ(play.world.ticks(), 1U);
     EXPECT_EQ(outcome.on_hand, outcome.touched.on_hand);
-    EXPECT_EQ(outcome.remote_force, base::Force{}); // what is not finite counts as zero
+    EXPECT_EQ(outcome.remote_force, base::Force{}); // a force that is not finite counts as zero
 }
 
 TEST(SharedObject, TellsWhatArrivesAndWhoIsForgotten)

@@ -30,13 +30,13 @@ wire::State heard(bool touching, double force_x, double body_x, double body_spee
 
 scene::World paper_world() { return scene::World::freeze(scene::paper_scene()).value(); }
 
-/// A hand from the left, so deep in the cube at the origin: 2 mm are 1 N.
+/// A hand from the left, at this depth in the cube at the origin: 2 mm are 1 N.
 scene::HandInput pushing(double depth, double speed = 0.0)
 {
     return {.position = {{-0.025 + depth, 0.0, 0.0}}, .velocity = {{speed, 0.0, 0.0}}};
 }
 
-/// A copy of the scene, the other side's word, and the algorithm between them.
+/// A copy of the scene, the other side's messages, and the algorithm between them.
 class Copy {
 public:
     void hear(const wire::State& state) { remote_.update(state, now); }
@@ -62,7 +62,7 @@ private:
     BaseAlgorithm algorithm_;
 };
 
-/// What happens without the other side, but for a push along x.
+/// Plays a tick without the other side, apart from a push along x.
 void tick(scene::World& world, const scene::HandInput& hand, double push_x = 0.0)
 {
     world.set_hand(own_hand, hand);
@@ -74,7 +74,7 @@ TEST(BaseAlgorithm, MovesABodyThatBothPushByTheSumOfTheForces)
 {
     Copy copy;
     scene::World expected = paper_world();
-    copy.hear(heard(true, -0.5, 0.05, 0.3)); // where it is over there does not matter now
+    copy.hear(heard(true, -0.5, 0.05, 0.3)); // its place in the other copy does not matter now
     for (int ms = 0; ms < 100; ++ms) {
         const scene::HandTouch touched = copy.tick(pushing(0.004));
         tick(expected, pushing(0.004), -0.5);
@@ -165,7 +165,7 @@ TEST(BaseAlgorithm, LetsABodyThatNobodyTouchesCoastFor200MsAndThenBlendsItWithin
         tick(expected, away);
         ASSERT_EQ(copy.world.hash(), expected.hash()) << ms;
     }
-    tick(expected, away); // the blend begins where the body has come to
+    tick(expected, away); // the blend begins at the body's present place
     const double from = expected.body(0).position.x();
     for (int ms = 0; ms <= 100; ++ms) {
         std::ignore = copy.tick(away);

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 constexpr base::TimePoint begin{1h};
 
-/// Cubes of 40 mm beside each other, in the air, so many.
+/// `count` cubes of 40 mm beside each other, in the air.
 scene::Description cubes(std::size_t count, scene::Turning turning = scene::Turning::free)
 {
     scene::Description scene{.name = "cubes"};
@@ -32,14 +32,14 @@ scene::Description cubes(std::size_t count, scene::Turning turning = scene::Turn
     return scene;
 }
 
-/// The copy of peer 2, and what it has heard of peer 1.
+/// The copy of peer 2, and its messages from peer 1.
 class Copy {
 public:
     explicit Copy(const scene::Description& scene)
         : world{scene::World::freeze(scene).value()}, bodies{shared_bodies(scene).value(), 2}
     {}
 
-    /// Of peer 1: its hand pushes the first of `states` so, from there; zero force: no touch.
+    /// A message of peer 1, whose hand pushes the first of `states` here; zero force: no touch.
     void hear(const std::vector<wire::BodyState>& states, base::Force force = {},
               base::Position hip = {})
     {
@@ -100,7 +100,7 @@ TEST(BaseBodies, ArePushedAndTurnedWhereTheOtherHandIsWhileThisOneTouches)
     Copy copy{cubes(1)};
     const scene::HandInput holding{.position = {{-0.0205, 0.0, 0.0}}, .gripping = true};
     std::ignore = copy.tick(holding);
-    // To the right, off the middle on the user's side: about +y.
+    // To the right, off the middle on the user's side, so it rotates about +y.
     copy.hear({state_of(0, {}, {}, 1000)}, {{1.0, 0.0, 0.0}}, {{-0.02, 0.0, 0.01}});
     const Outcome outcome = copy.tick(holding);
     EXPECT_EQ(copy.bodies.mover(0), SharedPoses::Mover::own);
@@ -124,7 +124,7 @@ TEST(BaseBodies, AreWhereTheOtherHasThemWhileItAloneTouches)
     EXPECT_LT(
         angle_between(copy.world.body(0).orientation, scene::rotated({1.0, 0.0, 0.0, 0.0}, turned)),
         5e-6);
-    EXPECT_EQ(copy.bodies.mover(1), SharedPoses::Mover::none); // which touches nothing
+    EXPECT_EQ(copy.bodies.mover(1), SharedPoses::Mover::none); // peer 2 touches nothing
     EXPECT_EQ(copy.world.position(1).x(), 0.1);
 }
 

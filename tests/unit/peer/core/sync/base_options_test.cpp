@@ -22,14 +22,14 @@ TEST(BaseOptions, FollowingRelativelyMovesABodyAsTheOtherMovesAndLeavesThemApart
     Copy copy = copy_with({.follow = Follow::relative, .bleed = std::nullopt});
     copy.hear({.sequence = 1, .body_mm = 5.0}, 0.0);
     std::ignore = copy.tick(0.0);
-    EXPECT_NEAR(copy.x_mm(), 0.0, nm); // it has not moved since it was first heard of
+    EXPECT_NEAR(copy.x_mm(), 0.0, nm); // no motion since the first message
     copy.hear({.sequence = 2, .body_mm = 5.5, .speed_m_per_s = 0.5}, 1.0);
     std::ignore = copy.tick(1.0);
     EXPECT_NEAR(copy.x_mm(), 0.5, nm);
     EXPECT_EQ(copy.speed(), 0.5);
-    std::ignore = copy.tick(2.0); // and not since the last tick, whatever its speed
+    std::ignore = copy.tick(2.0); // no motion since the last tick, at any speed
     EXPECT_NEAR(copy.x_mm(), 0.5, nm);
-    copy.hear({.sequence = 9, .body_mm = 9.0}, 3.0); // what was lost on the way is in it
+    copy.hear({.sequence = 9, .body_mm = 9.0}, 3.0); // contains the motion of lost messages
     std::ignore = copy.tick(3.0);
     EXPECT_NEAR(copy.x_mm(), 4.0, nm);
 }
@@ -72,7 +72,7 @@ TEST(BaseOptions, IncrementsAreLostWithTheirMessages)
     std::ignore = copy.tick(1.0);
     EXPECT_NEAR(copy.x_mm(), 0.5 + 0.4, nm);
     copy.hear({.sequence = 10, .speed_m_per_s = 0.4, .touching = false}, 2.0);
-    std::ignore = copy.tick(2.0);      // nobody's increment
+    std::ignore = copy.tick(2.0);      // no message, no increment
     EXPECT_LT(copy.x_mm(), 0.9 + 0.4); // it coasts
 }
 
@@ -82,7 +82,7 @@ TEST(BaseOptions, FollowingAlwaysTakesTheOtherBodysPlaceAlsoWhenNobodyTouches)
     copy.hear({.body_mm = 5.0, .touching = false}, 0.0);
     std::ignore = copy.tick(0.0);
     EXPECT_EQ(copy.x_mm(), 5.0);
-    std::ignore = copy.tick(1.0, away, 0.0); // but no stale word
+    std::ignore = copy.tick(1.0, away, 0.0); // but no stale message
     copy.hear({.sequence = 2, .body_mm = 7.0, .touching = false}, 1.0);
     std::ignore = copy.tick(2.0, away, 0.0);
     EXPECT_EQ(copy.x_mm(), 5.0);
@@ -114,7 +114,7 @@ TEST(BaseOptions, TheStrongerAloneMovesWhatBothPush)
     EXPECT_TRUE(stronger.remote_touching);
     copy.hear({.sequence = 2, .body_mm = 3.0, .force_n = -3.0}, 2.0);
     const Outcome weaker = copy.tick(2.0, pushing_hip(0.004));
-    EXPECT_EQ(copy.x_mm(), 3.0); // it is where the stronger hand has it
+    EXPECT_EQ(copy.x_mm(), 3.0); // the place in the stronger hand's copy
     EXPECT_TRUE(weaker.touched.touching);
     EXPECT_GT(-weaker.on_hand.x(), 0.1);
 }
@@ -143,7 +143,7 @@ TEST(BaseOptions, EqualForcesLeaveTheBodyToTheLowerId)
     for (const bool yields : {true, false}) {
         Copy copy = copy_with({.both_push = BothPush::stronger});
         copy.yields = yields;
-        copy.hear({.body_mm = 3.0, .force_n = 0.0}, 0.0); // as strong as no push at all
+        copy.hear({.body_mm = 3.0, .force_n = 0.0}, 0.0); // not stronger than no push
         std::ignore = copy.tick(0.0, pushing_hip(0.004));
         EXPECT_EQ(copy.x_mm() == 3.0, yields);
     }
@@ -223,7 +223,7 @@ TEST(BaseOptions, AForgottenRunLeavesNoDisplacementBehind)
     std::ignore = copy.tick(0.0);
     copy.remote.forget_state();
     copy.algorithm.forget();
-    copy.hear({.body_mm = 50.0}, 1.0); // elsewhere, as a new run may be
+    copy.hear({.body_mm = 50.0}, 1.0); // elsewhere, as a new run may send it
     std::ignore = copy.tick(1.0);
     EXPECT_NEAR(copy.x_mm(), 0.0, nm);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Single ticks, reckoned by hand.
+// Single ticks, computed by hand.
 #include "peer/core/sync/base_tdpa.hpp"
 #include "tests/unit/peer/core/sync/copy.hpp"
 
@@ -18,7 +18,7 @@ Copy<BaseTdpa> with_one_other()
     return Copy<BaseTdpa>{algorithm};
 }
 
-/// This hand rests in the cube, and the other pushes it with 1 N and works as it says.
+/// This hand rests in the cube. The other hand pushes it with 1 N, and sends this amount of work.
 struct Squeezed {
     void play(int ticks, double work_per_tick_j)
     {
@@ -46,7 +46,7 @@ struct Squeezed {
 TEST(BaseTdpa, IsBaseWhileTheOtherHandWorksForItsForce)
 {
     Squeezed there;
-    there.play(2, 0.1); // its work counts from its second word on
+    there.play(2, 0.1); // its work counts from its second message on
     there.play(20, 1e-3);
     EXPECT_GT(there.copy.algorithm.observed_j(), 0.0);
     EXPECT_EQ(there.last.remote_force.x(), -1.0);
@@ -54,7 +54,7 @@ TEST(BaseTdpa, IsBaseWhileTheOtherHandWorksForItsForce)
 
 TEST(BaseTdpa, DampsAForceWithoutWorkBehindIt)
 {
-    // The hand's own spring gives way: the body goes on to the left under -1 N, and comes back.
+    // The hand's own spring gives way. The body moves on to the left under -1 N, and comes back.
     Squeezed working;
     working.play(2, 0.1);
     Squeezed idle;

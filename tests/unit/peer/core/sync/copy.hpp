@@ -21,7 +21,7 @@ inline constexpr scene::HandInput away{.present = false};
     return scene::World::freeze(scene::paper_scene()).value();
 }
 
-/// A hand from the left, so deep in the cube at the origin: 2 mm are 1 N.
+/// A hand from the left, at this depth in the cube at the origin: 2 mm are 1 N.
 [[nodiscard]] inline scene::HandInput pushing_hip(double depth)
 {
     return {.position = {{-0.025 + depth, 0.0, 0.0}}};
@@ -44,7 +44,7 @@ struct Word {
     return start + base::from_seconds(1e-3 * ms);
 }
 
-/// A copy of the scene, the other side's words, and the algorithm between them.
+/// A copy of the scene, the other side's messages, and the algorithm between them.
 template <typename Algorithm>
 class Copy {
 public:
@@ -100,7 +100,7 @@ public:
     std::optional<ClockEstimate> clock = ClockEstimate{};
 };
 
-/// What happens without the other side, but for a push along x.
+/// Plays a tick without the other side, apart from a push along x.
 inline void tick(scene::World& world, const scene::HandInput& hand, double push_x = 0.0)
 {
     world.set_hand(own_hand, hand);

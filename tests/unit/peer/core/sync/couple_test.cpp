@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Single ticks, reckoned by hand.
+// Single ticks, computed by hand.
 #include "peer/core/sync/couple.hpp"
 #include "tests/unit/peer/core/sync/copy.hpp"
 

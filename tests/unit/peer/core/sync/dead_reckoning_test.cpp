@@ -43,7 +43,7 @@ TEST(DeadReckoning, LooksAheadByTheMeanDelayOrThisMessagesOwnOrAFixedTimeOrNotAt
 {
     const auto at_15_ms = [](Horizon horizon) {
         Copy copy = copy_with({.velocity = VelocityRule::sender, .horizon = horizon});
-        copy.clock = ClockEstimate{5s, {}}; // their clock is so far ahead
+        copy.clock = ClockEstimate{5s, {}}; // lead of their clock
         copy.hear({.sequence = 1, .sent_ms = 5000.0, .body_mm = 0.0}, 10.0);
         copy.hear({.sequence = 5, .sent_ms = 5004.0, .body_mm = 1.2}, 12.0);
         return predicted_mm(copy, 15.0);
@@ -122,7 +122,7 @@ TEST(DeadReckoning, TwoMessagesThatArriveAtOnceAreTwoTicksApartFromTheOneBefore)
     };
     EXPECT_NEAR(at_12_ms(VelocityRule::nominal), 0.4 + 0.3 * 10.0, nm);
     EXPECT_NEAR(at_12_ms(VelocityRule::sender), 0.4 + 0.3 * 10.0, nm);
-    // No time between the last two: the velocity of the two before stays.
+    // No time passed between the last two, so the earlier velocity is kept.
     EXPECT_NEAR(at_12_ms(VelocityRule::arrival), 0.4 + (0.1 / 2.0) * 10.0, nm);
 }
 
@@ -139,7 +139,7 @@ TEST(DeadReckoning, StaleMessagesThatAreTakenThrowTheNominalVelocityBackAndNotTh
     };
     EXPECT_NEAR(after(VelocityRule::nominal, 2, 1.0, 0.3), 0.3 - 0.3 * 10.0, nm);
     EXPECT_NEAR(after(VelocityRule::sender, 2, 1.0, 0.3), 0.3 + 0.3 * 10.0, nm);
-    // A duplicate: nothing moved in a tick, or no time passed.
+    // A duplicate: no motion in a tick, or no time passed.
     EXPECT_NEAR(after(VelocityRule::nominal, 3, 2.0, 0.6), 0.6, nm);
     EXPECT_NEAR(after(VelocityRule::sender, 3, 2.0, 0.6), 0.6 + 0.3 * 10.0, nm);
 }
@@ -162,7 +162,7 @@ TEST(DeadReckoning, HasNoVelocityAfterAGapAndAfterARestart)
     Copy copy = copy_with({});
     copy.hear({.sequence = 1, .sent_ms = 0.0, .body_mm = 0.0}, 10.0);
     copy.hear({.sequence = 251, .sent_ms = 250.0, .body_mm = 1.0}, 260.0);
-    EXPECT_NEAR(predicted_mm(copy, 260.0), 1.0 + 1.0 * 10.0, nm); // the longest that has one
+    EXPECT_NEAR(predicted_mm(copy, 260.0), 1.0 + 1.0 * 10.0, nm); // the longest gap with a velocity
     copy.hear({.sequence = 502, .sent_ms = 501.0, .body_mm = 50.0}, 511.0);
     EXPECT_NEAR(predicted_mm(copy, 520.0), 50.0, nm);
     copy.hear({.sequence = 503, .sent_ms = 502.0, .body_mm = 50.3}, 512.0);
@@ -202,7 +202,7 @@ TEST(DeadReckoning, StandsForThePlaceWhileOnlyTheOtherHandTouchesAndNotForItsVel
         EXPECT_EQ(copy.speed(), 0.25);
         EXPECT_TRUE(outcome.remote_touching);
     }
-    std::ignore = copy.tick(311.0, away, 0.0); // stale: nobody's word any more
+    std::ignore = copy.tick(311.0, away, 0.0); // stale: no message counts
     EXPECT_LT(copy.x_mm(), 0.3 + 0.3 * 13.0);
 
     Copy both = copy_with({});
@@ -232,7 +232,7 @@ TEST(DeadReckoning, BlendsANewPredictionInByProjectingBothVelocities)
     copy.hear({.sequence = 1, .sent_ms = 0.0, .body_mm = 8.0}, 0.0);
     std::ignore = copy.tick(0.0); // from the own body, at rest at 0: a quarter of the way
     EXPECT_NEAR(copy.x_mm(), 2.0, nm);
-    std::ignore = copy.tick(1.0); // without news the same blend goes on
+    std::ignore = copy.tick(1.0); // without a message the same blend goes on
     EXPECT_NEAR(copy.x_mm(), 4.0, nm);
     copy.hear({.sequence = 2, .sent_ms = 2.0, .body_mm = 8.8},
               2.0);               // 0.8 mm/ms by the nominal rule

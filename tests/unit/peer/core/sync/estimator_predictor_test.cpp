@@ -87,7 +87,7 @@ TEST(EstimatorPredictor, ReadsTheAgeFromTheSendersClockOrElseFromTheArrival)
 
 TEST(EstimatorPredictor, BridgesTheBeginningOfAHoleAndHoldsThroughALongOne)
 {
-    // Median delay 5 ms: whole until 15 ms of age, none from 65 ms on; sent at 1 ms.
+    // Median delay 5 ms: full prediction up to 15 ms of age, none from 65 ms on; sent at 1 ms.
     const auto force_at = [](double now_ms) {
         return after_two(plain, 1.0, 1.02).tick(now_ms).remote_force.x(); // 20 N/s
     };
@@ -105,7 +105,7 @@ TEST(EstimatorPredictor, NeverPullsNorPushesMoreThanAContactCan)
     EXPECT_EQ(after_two(plain, 1.0, 0.8).tick(16.0).remote_force.x(), 0.0); // -200 N/s
     EXPECT_NEAR(after_two(plain, 1.0, 2.0).tick(16.0).remote_force.x(), force_max, rounding);
     EXPECT_NEAR(after_two(plain, -1.0, -2.0).tick(16.0).remote_force.x(), -force_max, rounding);
-    // What the wire says is limited before it is filtered.
+    // The received force is limited before it is filtered.
     EXPECT_NEAR(after_two(plain, 3.3, 1e30).tick(16.0).remote_force.x(), force_max, rounding);
     EXPECT_EQ(after_two(plain, 1.0, 0.0).tick(6.0).remote_force.x(), 0.0);
 }
@@ -115,7 +115,7 @@ TEST(EstimatorPredictor, ChangesItsForceByTheSlewAtMost)
     EstimatorPredictorOptions slow = plain;
     slow.force_slew_n_per_s = 100.0; // 0.1 N a tick
     Copy copy = after_two(slow, 1.0, 1.0);
-    EXPECT_NEAR(copy.tick(6.0).remote_force.x(), 1.0, rounding); // the first stands as it is
+    EXPECT_NEAR(copy.tick(6.0).remote_force.x(), 1.0, rounding); // the first value is not filtered
     copy.hear({.sequence = 3, .sent_ms = 2.0, .force_n = 1.5}, 7.0);
     EXPECT_NEAR(copy.tick(7.0).remote_force.x(), 1.1, rounding);
     EXPECT_NEAR(copy.tick(8.0).remote_force.x(), 1.2, rounding);
@@ -129,7 +129,7 @@ TEST(EstimatorPredictor, StartsAnewWhenAHandTouchesOrLetsGo)
     EXPECT_EQ(off.remote_force, base::Force{});
     EXPECT_FALSE(off.remote_touching);
     copy.hear({.sequence = 4, .sent_ms = 3.0, .force_n = 0.8}, 8.0);
-    EXPECT_NEAR(copy.tick(8.0).remote_force.x(), 0.8, rounding); // a step and no slope
+    EXPECT_NEAR(copy.tick(8.0).remote_force.x(), 0.8, rounding); // a jump without a slope
     EstimatorPredictorOptions patient = plain;
     patient.gap_max = 3ms;
     Copy gap = after_two(patient, 1.0, 1.1);

@@ -19,7 +19,7 @@ HandSample sample(double x_m, double speed_m_per_s = 0.0)
 
 TEST(HandHistory, FindsTheCubicBetweenTwoThatAreKnown)
 {
-    // x = t^3 - 2 t^2 + 3 t in ticks of 1 ms: a cubic is met everywhere.
+    // x = t^3 - 2 t^2 + 3 t in ticks of 1 ms: interpolation of a cubic is exact everywhere.
     const auto x = [](double t) { return 1e-6 * (t * t * t - 2.0 * t * t + 3.0 * t); };
     const auto v = [](double t) { return 1e-3 * (3.0 * t * t - 4.0 * t + 3.0); };
     HandHistory history;
@@ -71,7 +71,7 @@ TEST(HandHistory, HasTheSameBitsOfTheOwnHandAndOfItsMessage)
     EXPECT_EQ(heard.place, own.place);
     EXPECT_EQ(heard.velocity, own.velocity);
     EXPECT_TRUE(heard.present);
-    EXPECT_FALSE(HandSample::of(wire::State{}).present); // nobody holds the device
+    EXPECT_FALSE(HandSample::of(wire::State{}).present); // no hand holds the device
 }
 
 TEST(SessionTicks, CountWhereClocksAreNotExact)
@@ -87,7 +87,7 @@ TEST(SessionTicks, NumberWhoJoinsLateByTheClockAndCountOnFromThere)
     SessionTicks ticks;
     EXPECT_EQ(ticks.number(0, 312ms + 400us, 1ms), 312);
     EXPECT_EQ(ticks.number(1, 330ms, 1ms), 313);
-    EXPECT_EQ(ticks.number(100, 500ms, 1ms), 500); // it has missed some, again
+    EXPECT_EQ(ticks.number(100, 500ms, 1ms), 500); // it has again missed some
 }
 
 TEST(AgeQuantile, IsTheAgeThatAShareDoesNotExceed)

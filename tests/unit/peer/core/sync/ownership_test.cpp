@@ -29,7 +29,7 @@ TEST(Ownership, IsForASecondThatOfWhoTouchedLast)
     EXPECT_EQ(ownership.owner(first, all, begin + 600ms), 3);
     EXPECT_EQ(ownership.owner(first, all, begin + 1600ms - 1ns), 3);
     EXPECT_EQ(ownership.owner(first, all, begin + 1600ms), 1);
-    EXPECT_EQ(ownership.owner(second, all, begin + 600ms), 1); // of which no one touched anything
+    EXPECT_EQ(ownership.owner(second, all, begin + 600ms), 1); // no peer has touched them
 }
 
 TEST(Ownership, IsTheLowestIdsOfThoseWhoTouchedAtNearlyTheSameTime)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr glm::dquat upright{1.0, 0.0, 0.0, 0.0};
 
-/// Cubes of 40 mm beside each other, in the air, so many.
+/// `count` cubes of 40 mm beside each other, in the air.
 scene::Description cubes(std::size_t count)
 {
     scene::Description scene{.name = "cubes"};
@@ -36,7 +36,7 @@ wire::BodyState state_of(std::uint16_t id, const glm::dvec3& place, const glm::d
     return state;
 }
 
-/// The copy of peer 2 with remote-proxy, which hears peer 1.
+/// The copy of peer 2 with remote-proxy, which receives from peer 1.
 class Copy {
 public:
     explicit Copy(const scene::Description& scene = cubes(1), std::uint16_t own_id = 2)
@@ -44,7 +44,7 @@ public:
     {
         algorithm.prepare(1, world);
     }
-    /// Of peer 1, `age_ms` ago. It touches the body that it has given an impulse last.
+    /// A message of peer 1, `age_ms` old. It touches the body that it gave the last impulse.
     void hear(wire::State state, double age_ms = 0.0)
     {
         ++ms;
@@ -86,10 +86,10 @@ private:
     std::optional<ClockEstimate> clock_ = ClockEstimate{};
 };
 
-/// Not on the body, whatever it says: its proxy touches nothing either.
+/// Off the body, whatever the message says. Its proxy touches nothing either.
 constexpr double off = -0.1;
 
-/// Of a hand on the left face of the first cube, off its middle; both may be turned.
+/// The state of a hand on the left face of the first cube, off its middle. Both may be rotated.
 wire::State pushing(const glm::dvec3& turned, double depth_m = 0.002, double beside_m = 0.01)
 {
     const glm::dquat orientation = scene::rotated(upright, turned);
@@ -114,7 +114,7 @@ TEST(PoseCorrection, AProxyEntersWhereItsOwnersHandIsOnTheBodyHoweverThatIsTurne
     const glm::dvec3 force = glm::conjugate(here.orientation) * outcome.remote_force.value;
     EXPECT_NEAR(force.x, 1.0, 0.05);
     EXPECT_NEAR(force.z, 0.0, 0.05);
-    // And it turns the body about its contact point: off the middle, on the user's side.
+    // And it rotates the body about its contact point: off the middle, on the user's side.
     EXPECT_GT(copy.world.body(0).angular_velocity.y, 0.0);
 }
 

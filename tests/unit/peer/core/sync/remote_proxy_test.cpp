@@ -9,8 +9,8 @@
 namespace hapnet::peer::remote_proxy_test {
 namespace {
 
-/// A copy with one other, who pushes the cube from the right. Messages come each millisecond, 5 ms
-/// old.
+/// A copy with one other peer, which pushes the cube from the right. Messages come each
+/// millisecond, 5 ms old.
 struct Pushed {
     explicit Pushed(const RemoteProxyOptions& options = {}) : copy{prepared(options)} {}
 
@@ -21,7 +21,7 @@ struct Pushed {
         return algorithm;
     }
 
-    /// The other hand means to be `intention_mm` to the left of where it is.
+    /// The other hand intends to be `intention_mm` to the left of its place.
     void play(int ticks, double hip_mm, double intention_mm, double body_mm,
               std::uint32_t work_per_tick_uj = 0)
     {
@@ -61,7 +61,7 @@ TEST(RemoteProxy, PushesTheBodyAsAHandDoes)
     Pushed there;
     there.play(300, 25.0 - 1.0, 20.0, 0.0);
     EXPECT_TRUE(there.last.remote_touching);
-    EXPECT_LT(there.last.remote_force.x(), -0.2); // most of its way is behind it
+    EXPECT_LT(there.last.remote_force.x(), -0.2); // most of its motion is over
     EXPECT_LT(there.copy.x_mm(), -1.0);
     EXPECT_EQ(there.last.on_hand, base::Force{}); // the own hand is away, and nothing reaches it
 }
@@ -92,7 +92,7 @@ TEST(RemoteProxy, GoesWhenItsOwnerLetsGo)
 
 TEST(RemoteProxy, GivesNoMoreThanItsAccountHoldsWhenItsOwnerDoesNoWork)
 {
-    // The owner's messages say that it means to be far to the left, and that it does no work.
+    // The owner's messages claim an intention far to the left, and no work.
     RemoteProxyOptions poor;
     poor.account_j = 0.002;
     poor.power_w = 0.0;
@@ -118,7 +118,7 @@ TEST(RemoteProxy, TheAccountGrowsByTheWorkOfTheOwnerAlsoOverTheEndOfTheCounter)
     state.work_uj = 0x0000'0f00U; // 4096 uJ more
     there.hear(state, true);
     EXPECT_NEAR(there.copy.algorithm.account_j() - before, 4096e-6, 1e-12);
-    state.work_uj = 0x0000'0000U; // and 3840 uJ less again: what it got back
+    state.work_uj = 0x0000'0000U; // and 3840 uJ less again: the energy returned to it
     ++state.sequence;
     there.hear(state, true);
     EXPECT_NEAR(there.copy.algorithm.account_j() - before, 256e-6, 1e-12);
@@ -160,8 +160,8 @@ TEST(RemoteProxy, ComesToTheLeadersPoseOnceBothHandsAreOffWithoutTheDelayInTheLo
     EXPECT_NEAR(there.copy.x_mm(), 12.0, 0.01);
 }
 
-/// Where a copy at 3 mm ends that hears the other's at 12 mm, which nobody touches any more. Both
-/// hands have touched, and this copy knows of its own touch alone, or of the other's alone.
+/// Where a copy at 3 mm ends that hears of the other copy's body at 12 mm, at rest and untouched.
+/// Both hands have touched. This copy knows of its own touch alone, or of the other's alone.
 double settled_mm(bool knows_own_touch, std::size_t lower_ids, int ticks)
 {
     Pushed there;
@@ -191,7 +191,7 @@ TEST(RemoteProxy, LetsTheLowestIdLeadOnceNoHandTouchesWhoeverIsTakenForTheLast)
     for (const bool knows_own_touch : {true, false}) {
         EXPECT_NEAR(settled_mm(knows_own_touch, 1, 1000), 12.0, 0.01) << knows_own_touch;
     }
-    // The lower id's own copy rests. For 500 ms it is that of who touched last.
+    // The lower id's own copy rests. For 500 ms the last hand that touched decides.
     EXPECT_NEAR(settled_mm(true, 0, 1000), 3.0, 0.01);
     EXPECT_NEAR(settled_mm(true, 1, 450), 3.0, 0.01);
     EXPECT_NEAR(settled_mm(false, 0, 450), 12.0, 0.01);

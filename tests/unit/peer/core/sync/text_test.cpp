@@ -21,7 +21,7 @@ std::string complaint(std::string_view text)
     return algorithm ? "none" : algorithm.error().message;
 }
 
-/// Nothing as its default.
+/// Options that all differ from their defaults.
 const BaseOptions other_base{.displacement = DisplacementSign::previous_minus_current,
                              .displacement_from = DisplacementFrom::increments,
                              .follow_while = FollowWhile::always,

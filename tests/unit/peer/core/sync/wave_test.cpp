@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
-// Single ticks, reckoned by hand.
+// Single ticks, computed by hand.
 #include "peer/core/sync/wave.hpp"
 #include "tests/unit/peer/core/sync/copy.hpp"
 
@@ -21,7 +21,7 @@ TEST(Wave, ArrivesOnceAndIsADamperOtherwise)
 {
     auto copy = with_one_other();
     copy.hear({.sent_ms = 0.0, .speed_m_per_s = 0.1}, 50.0);
-    // The sender had no wave of ours: sqrt(2 b) v, and at rest F = sqrt(2 b) times that.
+    // The sender had no wave of ours, so it has sqrt(2 b) v, and at rest F = sqrt(2 b) times that.
     EXPECT_NEAR(copy.tick(50.0).remote_force.x(), 2.0 * 10.0 * 0.1, 1e-9);
     const double speed = copy.speed();
     ASSERT_GT(speed, 0.0);

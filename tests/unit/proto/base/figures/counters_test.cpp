@@ -13,7 +13,7 @@ constexpr auto names_of(Tag<Side>) { return names("left", "right"); }
 
 struct Counts {
     std::uint64_t all = 0;
-    std::uint64_t waiting = 0; // which may fall
+    std::uint64_t waiting = 0; // may decrease
     ByName<Side, std::uint64_t> by_side{};
 
     friend bool operator==(const Counts&, const Counts&) = default;

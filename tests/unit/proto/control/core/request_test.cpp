@@ -26,7 +26,7 @@ std::string object_of(std::size_t members)
 
 TEST(ControlRequest, HasABoundedNumberOfValues)
 {
-    EXPECT_EQ(refusal_of(object_of(values_max - 1)), ""); // the object is one itself
+    EXPECT_EQ(refusal_of(object_of(values_max - 1)), ""); // the object counts as a value
     EXPECT_EQ(refusal_of(object_of(values_max)), "more than 512 values");
     EXPECT_EQ(refusal_of(object_of(90'000)), "more than 512 values");
     EXPECT_EQ(refusal_of("{\"a\":[" + std::string(2000, '1').replace(1, 1998, "") + "]}"), "");
