@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Judges the sessions of an experiment by a metric of one's own: a function of their records.
 
-docs/use/libraries.md has an example; `python3 -m hapnet.judge --help` is the command line."""
+docs/use/python.md has an example; `python3 -m hapnet.judge --help` is the command line."""
 
 from __future__ import annotations
 
@@ -15,11 +15,16 @@ from typing import List, Mapping, Optional, Sequence
 
 from hapnet.measure import Measured, Metric, digest_of, measure, play, write_csv
 from hapnet.process import ProgramFailed
-from hapnet.verdict import GOOD, CannotJudge, Group, Limits, Verdict, judged
+from hapnet.threshold import Threshold
+from hapnet.verdict import (
+    GOOD, CannotJudge, Group, Limits, Verdict, judged, thresholds, unit_of,
+)
 
-__all__ = ["CannotJudge", "Group", "Limits", "Verdict", "run"]
+__all__ = ["CannotJudge", "Group", "Limits", "Threshold", "Verdict", "run", "thresholds"]
 
-COLUMNS = (*Group._fields, "seeds", "mean", "ci_low", "ci_high", "unit", "limit", "verdict")
+COLUMNS = (*Group._fields, "seeds", "mean", "ci_low", "ci_high", "unit", "limit", "verdict",
+           "usable_seeds", "usable_ci_low", "usable_ci_high")
+P50_COLUMNS = ("parameter", "algorithm", "task", "seeds", *Threshold._fields, "unit")
 DONE, NOT_ALL_GOOD, BAD_INPUT, SYSTEM, INTERRUPTED = 0, 1, 2, 3, 130
 
 
@@ -47,17 +52,20 @@ def run(experiment: str, metric: Metric, *, out: str, at_most: Optional[float] =
         settings: Optional[Mapping[str, str]] = None, jobs: Optional[int] = None,
         name: Optional[str] = None, progress: Optional[bool] = None) -> List[Verdict]:
     """Plays an experiment of kind table1 or trajectories once per seed, and calls `metric` with the
-    records of each session in the order of the players: metric(a, b). Of recorded hands only the
-    first trial has records.
+    records of each session in the order of the players: metric(a, b). It returns a finite number.
+    Of recorded hands only the first trial has records.
 
     `seeds`: how many, 1 to 1000, from first_seed of the experiment on. `at_most`, `at_least`: the
-    limits, finite, in `unit`. `settings`: as for Lab.run. `jobs`: threads of hapnet-lab, None: all.
-    `name`: instead of the function's own. `progress`: on stderr; None: if that is a terminal.
+    limits, finite, in `unit`; a session is usable if they allow its value. `settings`: as for
+    Lab.run. `jobs`: threads of hapnet-lab, None: all. `name`: instead of the function's own.
+    `progress`: on stderr; None: if that is a terminal.
 
-    Writes OUT/NAME.csv, a row per group, and after each seed OUT/NAME-sessions.csv, a row per
-    session. A seed whose rows stand there is not played again while the experiment, the files that
-    it names, the programs and the text of the function are the same; else its rows are replaced.
-    Records are removed once they are measured. Raises CannotJudge, ProgramFailed or OSError."""
+    Writes OUT/NAME.csv, a row per group; after each seed OUT/NAME-sessions.csv, a row per session;
+    and OUT/NAME-p50.csv, where thresholds() of the result has rows. A seed whose rows stand there
+    is not played again while the experiment, the files that it names, the programs and the text of
+    the function are the same; else its rows are replaced. Records are removed once they are
+    measured. After Ctrl-C, the next call goes on with the sessions of the seed that was played.
+    Raises CannotJudge, which names session and reason, ProgramFailed or OSError."""
     name = name or str(getattr(metric, "__name__", ""))
     if not name.isidentifier():
         raise CannotJudge(f"the metric's name '{name}' cannot name files: give one such as "
@@ -84,16 +92,32 @@ def run(experiment: str, metric: Metric, *, out: str, at_most: Optional[float] =
                 line.show(f"session {number} of {len(left) * len(sessions)}")
                 values[group] = measure(metric, f"{name} of {group}, seed {seed}", records)
             table.add(seed, values)
+        line.show("tables")  # the fits of many thresholds take a while
+        verdicts = [judged(group, of, limits) for group, of in table.of_first(seeds).items()]
+        _write(os.path.join(out, name), verdicts, unit, limits)
+    except BaseException as ended:
+        if not isinstance(ended, KeyboardInterrupt):  # after which a later run needs its sessions
+            shutil.rmtree(work, ignore_errors=True)
+        raise
     finally:
         line.finish()
-        shutil.rmtree(work, ignore_errors=True)
-    chosen = sorted(table.by_seed)[:seeds]
-    verdicts = [judged(group, {seed: table.by_seed[seed][group] for seed in chosen}, limits)
-                for group in table.by_seed[chosen[0]]]
-    write_csv(os.path.join(out, f"{name}.csv"), COLUMNS, [
-        (*one.group, seeds, one.mean, one.ci_low, one.ci_high, unit, limits, one.verdict)
-        for one in verdicts])
+    shutil.rmtree(work, ignore_errors=True)
     return verdicts
+
+
+def _write(path: str, verdicts: Sequence[Verdict], unit: str, limits: Limits) -> None:
+    """Writes the tables of the groups and, where there are any, of their thresholds."""
+    write_csv(f"{path}.csv", COLUMNS, [
+        (*one.group, len(one.values), one.mean, one.ci_low, one.ci_high, unit, limits, one.verdict,
+         one.usable_seeds, *one.usable_interval) for one in verdicts])
+    found = thresholds(verdicts)
+    if found:
+        seeds = len(verdicts[0].values)
+        write_csv(f"{path}-p50.csv", P50_COLUMNS, [
+            (group.parameter, group.algorithm, group.task, seeds, *one, unit_of(group.parameter))
+            for group, one in found.items()])
+    elif os.path.exists(f"{path}-p50.csv"):
+        os.remove(f"{path}-p50.csv")  # of other limits
 
 
 def _loaded(text: str) -> Metric:
@@ -125,8 +149,10 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Plays an experiment once per seed, and judges its sessions by a function of\n"
         "their records. Run again, it plays only the missing seeds.",
-        epilog="Writes DIR/FUNCTION.csv and DIR/FUNCTION-sessions.csv. The programs are found in\n"
-        "PATH, or in the folder HAPNET_BIN.\n\nExample:\n  python3 -m hapnet.judge my.toml "
+        epilog="Writes DIR/FUNCTION.csv, DIR/FUNCTION-sessions.csv and, with an axis over a\n"
+        "delay, a jitter or a loss, DIR/FUNCTION-p50.csv: the level at which half of the\n"
+        "sessions fail. The programs are found in PATH, or in the folder HAPNET_BIN.\n\n"
+        "Example:\n  python3 -m hapnet.judge my.toml "
         "--metric mine.py:drift --at-most 2.0 \\\n    --unit mm --seeds 10 --out results/mine\n\n"
         "Exit codes:\n  0  every verdict is good, or there is no limit\n"
         "  1  a verdict is not good or undecided, or hapnet-lab failed\n  2  bad usage or input\n"
@@ -170,10 +196,22 @@ def main(words: Optional[Sequence[str]] = None) -> int:
         return _refuse(f"{refused}: see to it, or name another --out", SYSTEM)
     except KeyboardInterrupt:
         return _refuse("interrupted; the same command goes on", INTERRUPTED)
+    _tell(verdicts, given.unit)
+    return DONE if all(one.verdict in (GOOD, None) for one in verdicts) else NOT_ALL_GOOD
+
+
+def _tell(verdicts: Sequence[Verdict], unit: str) -> None:
+    """Prints a line for each group and for each threshold."""
     for one in verdicts:
         ends = "" if one.ci_low is None else f" ({one.ci_low:.4g} to {one.ci_high:.4g})"
-        print(f"{one.group}: {one.mean:.4g}{ends} {given.unit}".rstrip(), one.verdict or "")
-    return DONE if all(one.verdict in (GOOD, None) for one in verdicts) else NOT_ALL_GOOD
+        told = "" if one.verdict is None else (
+            f" {one.verdict}; usable {one.usable_seeds} of {len(one.usable)}")
+        print(f"{one.group}: {one.mean:.4g}{ends} {unit}".rstrip() + told)
+    for group, found in thresholds(verdicts).items():
+        sign = "" if found.bound == "=" else "> "
+        high = "?" if found.ci_high is None else f"{found.ci_high:.4g}"
+        print(f"{group.algorithm}-{group.task}: half fail at {group.parameter} {sign}"
+              f"{found.p50:.4g} ({found.ci_low:.4g} to {high}) {unit_of(group.parameter)}")
 
 
 def _refuse(words: str, code: int) -> int:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import glob
 import hashlib
@@ -37,7 +38,12 @@ def write_csv(path: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -
 
 def digest_of(experiment: str, settings: Mapping[str, str], metric: Metric, work: str) -> str:
     """BLAKE2b of all that decides the values of a seed: of the plan, which holds the experiment,
-    its files and the build, and of the function's text. `work`: a folder for the plan."""
+    its files and the build, and of the function's text. `work`: a folder for the plan. Its
+    sessions are removed if they are of another plan."""
+    kept, before = os.path.join(work, "plan.json"), b""
+    if os.path.exists(kept):
+        with open(kept, "rb") as file:
+            before = file.read()
     words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
     try:
         run_program("hapnet-lab", ["plan", experiment, "--out", work, *words])
@@ -46,8 +52,10 @@ def digest_of(experiment: str, settings: Mapping[str, str], metric: Metric, work
             raise
         raise CannotJudge(f"{experiment}: an experiment of its kind keeps no records: write kind = "
                           f"\"table1\" or \"trajectories\" ({failed})") from failed
-    with open(os.path.join(work, "plan.json"), "rb") as file:
+    with open(kept, "rb") as file:
         plan = file.read()
+    if plan != before:
+        _clear(work, but=("plan.json",))
     try:
         text = inspect.getsource(metric).encode()
     except (OSError, TypeError):  # typed at a prompt: no run knows it again
@@ -75,6 +83,12 @@ class Measured:
                     raise CannotJudge(f"{path}:{number}: it is no row of a metric: remove the file "
                                       "or name another folder") from None
 
+    def of_first(self, seeds: int) -> Dict[Group, Dict[int, float]]:
+        """The values by seed of each group, of this number of the lowest seeds."""
+        chosen = sorted(self.by_seed)[:seeds]
+        return {group: {seed: self.by_seed[seed][group] for seed in chosen}
+                for group in self.by_seed[chosen[0]]}
+
     def add(self, seed: int, values: Dict[Group, float]) -> None:
         """Notes all sessions of a seed on the disk."""
         self.by_seed[seed] = values
@@ -85,9 +99,10 @@ class Measured:
 
 def play(experiment: str, settings: Mapping[str, str], seed: Optional[int], work: str,
          jobs: Optional[int]) -> Tuple[int, Dict[Group, List[str]]]:
-    """Plays one seed into the folder `work`; None: the first of the experiment. Returns the seed,
-    and by group the records in the order of the players. Raises ProgramFailed and CannotJudge."""
-    shutil.rmtree(work, ignore_errors=True)
+    """Plays one seed into the folder `work`; None: the first of the experiment. Sessions that an
+    interrupted call has left there are not played again. Returns the seed, and by group the
+    records in the order of the players. Raises ProgramFailed and CannotJudge."""
+    _clear(work, but=("plan.json", "sessions.jsonl"))
     first = {} if seed is None else {"first_seed": str(seed)}
     done = Lab().run(experiment, work, {**settings, **first}, seeds=1, jobs=jobs)
     sessions: Dict[Group, List[str]] = {}
@@ -105,6 +120,16 @@ def play(experiment: str, settings: Mapping[str, str], seed: Optional[int], work
         raise CannotJudge(f"{experiment}: {which} left no records: play an experiment of kind "
                           "table1 or trajectories, by the hapnet-lab of this version")
     return int(done.manifest["seeds"][0]), sessions
+
+
+def _clear(folder: str, but: Sequence[str]) -> None:
+    """Removes all of a folder, which need not be there, but the files of these names."""
+    with contextlib.suppress(FileNotFoundError):
+        for one in os.scandir(folder):
+            if one.is_dir(follow_symlinks=False):
+                shutil.rmtree(one.path)
+            elif one.name not in but:
+                os.remove(one.path)
 
 
 def _group_of(row: Mapping[str, str], values: List[str]) -> Tuple[str, Group]:

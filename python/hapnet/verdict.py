@@ -1,14 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
-"""What values by seed say of a limit: their mean, its interval, and the verdict."""
+"""What values by seed say of a limit: their mean, the share of usable sessions, the verdict, and
+the level of an impairment at which half of the sessions fail."""
 
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
-from typing import Dict, NamedTuple, Optional
+from statistics import NormalDist
+from typing import Dict, NamedTuple, Optional, Sequence, Tuple
 
 from hapnet.student import mean_of
+from hapnet.study import quantity
+from hapnet.threshold import Threshold, threshold_of
 
 GOOD, NOT_GOOD, UNDECIDED = "good", "not good", "undecided"
 
@@ -27,7 +32,7 @@ class Group(NamedTuple):
     task: str
 
     def __str__(self) -> str:
-        at = f" at {self.parameter} {self.value}" if self.parameter else ""
+        at = f" at {self.parameter} {self.value}" if self.value else ""
         return f"{self.algorithm}-{self.task}{at}"
 
 
@@ -58,6 +63,10 @@ class Limits:
         both = ((">=", self.at_least), ("<=", self.at_most))
         return " and ".join(f"{sign} {one}" for sign, one in both if one is not None)
 
+    def has(self, value: float) -> bool:
+        """True if the value is allowed."""
+        return self.least <= value <= self.most
+
     def verdict(self, low: Optional[float], high: Optional[float]) -> Optional[str]:
         """The verdict on the interval from `low` to `high`. GOOD: all of it is allowed. NOT_GOOD:
         all of it is beyond one limit. Else, or without an interval, UNDECIDED. None: there is no
@@ -75,7 +84,8 @@ class Limits:
 class Verdict:
     """What a metric says of a group, in its unit. `values` are by seed. `ci_low` and `ci_high`
     are the ends of the 95 % interval of their mean by Student's distribution; None for a single
-    seed. `verdict` is Limits.verdict()."""
+    seed. `verdict` is Limits.verdict(). `usable` says by seed whether the limits allow the value;
+    it is empty if there is no limit."""
 
     group: Group
     values: Dict[int, float]
@@ -83,9 +93,66 @@ class Verdict:
     ci_low: Optional[float]
     ci_high: Optional[float]
     verdict: Optional[str]
+    usable: Dict[int, bool]
+
+    @property
+    def usable_seeds(self) -> Optional[int]:
+        """How many of the seeds are usable. None: there is no limit."""
+        return sum(self.usable.values()) if self.usable else None
+
+    @property
+    def usable_interval(self) -> Tuple[Optional[float], Optional[float]]:
+        """The ends of the 95 % interval of the share of usable sessions, from 0 to 1. None: there
+        is no limit."""
+        if not self.usable:
+            return None, None
+        return share_interval(sum(self.usable.values()), len(self.usable))
 
 
 def judged(group: Group, values: Dict[int, float], limits: Limits) -> Verdict:
     """The verdict on the values of a group, of one seed at least."""
     mean, low, high = mean_of(list(values.values()))
-    return Verdict(group, values, mean, low, high, limits.verdict(low, high))
+    verdict = limits.verdict(low, high)
+    usable = {} if verdict is None else {seed: limits.has(one) for seed, one in values.items()}
+    return Verdict(group, values, mean, low, high, verdict, usable)
+
+
+def share_interval(count: int, of: int) -> Tuple[float, float]:
+    """The 95 % interval of the share of which `count` of `of` is a sample (Wilson, "Probable
+    inference, the law of succession, and statistical inference", Journal of the American
+    Statistical Association 22, 1927, 209-212)."""
+    z = NormalDist().inv_cdf(0.975)
+    middle = (count + 0.5 * z * z) / (of + z * z)
+    reach = z / (of + z * z) * math.sqrt(count * (of - count) / of + 0.25 * z * z)
+    return (0.0 if count == 0 else middle - reach), (1.0 if count == of else middle + reach)
+
+
+def thresholds(verdicts: Sequence[Verdict]) -> Dict[Group, Threshold]:
+    """The levels at which half of the sessions fail, in ms or percent, for each algorithm and task
+    (the `value` of these groups is empty). Needs limits, and a single axis of two levels or more
+    over a delay, a jitter or a loss of [both], [up], [down] or a link. Else the result is empty,
+    and so it is if a value of the axis is a law instead of a time or a share."""
+    failed: Dict[Group, Dict[float, Tuple[bool, ...]]] = {}
+    for one in verdicts:
+        level = _level_of(one.group)
+        if level is None or not one.usable:
+            return {}
+        outcomes = tuple(not one.usable[seed] for seed in sorted(one.usable))
+        failed.setdefault(one.group._replace(value=""), {})[level] = outcomes
+    return {group: threshold_of(*zip(*sorted(by_level.items())))
+            for group, by_level in failed.items() if len(by_level) > 1}
+
+
+def unit_of(parameter: str) -> str:
+    """The unit of the levels of an impairment."""
+    return "percent" if parameter.endswith("loss") else "ms"
+
+
+def _level_of(group: Group) -> Optional[float]:
+    """The level of the impairment that the axis varies. None: it varies something else."""
+    if re.fullmatch(r"(both|all|up|down|link\..+)\.(delay|jitter|loss)", group.parameter) is None:
+        return None
+    try:
+        return quantity.parse(group.value, "ms" if unit_of(group.parameter) == "ms" else "%")
+    except ValueError:
+        return None

@@ -4,14 +4,19 @@
 
 import csv
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 from hapnet import Lab, judge, read_csv
 from hapnet.student import mean_of
-from hapnet.verdict import GOOD, NOT_GOOD, UNDECIDED, CannotJudge, Limits
+from hapnet.threshold import threshold_of
+from hapnet.verdict import (
+    GOOD, NOT_GOOD, UNDECIDED, CannotJudge, Group, Limits, judged, share_interval, thresholds,
+)
 
 EXPERIMENT = """title = "judged"
 kind = "table1"
@@ -24,6 +29,26 @@ tasks = ["T3"]
 delay = "40ms"
 """
 GROUPS = [("", "", name, task) for name in ("base", "sep") for task in ("P1", "T3")]
+
+LIMITS = """title = "limits"
+kind = "limits"
+seeds = 8
+duration = "3s"
+algorithms = ["base", "dead-reckoning"]
+tasks = ["T1"]
+
+[limit.delay]
+from = "80ms"
+to = "240ms"
+step = "40ms"
+resolution = "5ms"
+
+[limit.random-loss]
+from = "60%"
+to = "99%"
+step = "10%"
+resolution = "1%"
+"""
 
 METRICS = '''
 calls = []
@@ -40,6 +65,20 @@ def farthest(a, b):
 def running(record):
     columns = map(record.ticks.column, ("due", "late", "cube", "phase"))
     return {due + late: cube[0] for due, late, cube, phase in zip(*columns) if phase == 2}
+
+
+def apart(a, b):
+    """Mean distance in x of the two copies, in mm."""
+    ours, theirs = running(a), running(b)
+    both = ours.keys() & theirs.keys()
+    return 1e3 * sum(abs(ours[at] - theirs[at]) for at in both) / len(both)
+
+
+def rising(a, b):
+    """Delay in ms, and 3 more for each seed after the first."""
+    text = a.config["network_toml"]
+    delay = next((level for level in (20, 30, 40) if f"{level}ms" in text), 0)
+    return delay + 3.0 * (a.config["seed"] - 1001)
 
 
 def delay(a, b):
@@ -72,6 +111,15 @@ def word(a, b):
 '''
 
 
+def lines_in(path):
+    """The number of whole lines of a file; 0 if there is no such file."""
+    try:
+        with open(path, "rb") as file:
+            return file.read().count(b"\n")
+    except FileNotFoundError:
+        return 0
+
+
 class AMetric(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory(prefix="hapnet-judge-")
@@ -102,10 +150,13 @@ class AMetric(unittest.TestCase):
         with open(self.path("out", name), encoding="utf-8", newline="") as file:
             return list(csv.DictReader(file))
 
+    def command(self, *words):
+        return [sys.executable, "-m", "hapnet.judge", *words]
+
     def program(self, *words, code):
         done = subprocess.run(
-            [sys.executable, "-m", "hapnet.judge", *words], stdin=subprocess.DEVNULL,
-            capture_output=True, text=True, timeout=100, check=False)
+            self.command(*words), stdin=subprocess.DEVNULL, capture_output=True,
+            text=True, timeout=100, check=False)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
@@ -129,12 +180,84 @@ class AMetric(unittest.TestCase):
 
         table = self.rows("farthest.csv")
         self.assertEqual(list(table[0]), ["parameter", "value", "algorithm", "task", "seeds",
-                                          "mean", "ci_low", "ci_high", "unit", "limit", "verdict"])
-        self.assertEqual([(row["seeds"], row["unit"], row["limit"], row["verdict"])
-                          for row in table], [("2", "mm", "<= 10.0", "good")] * 4)
+                                          "mean", "ci_low", "ci_high", "unit", "limit", "verdict",
+                                          "usable_seeds", "usable_ci_low", "usable_ci_high"])
+        self.assertEqual([(row["seeds"], row["unit"], row["limit"], row["verdict"],
+                           row["usable_seeds"], row["usable_ci_high"])
+                          for row in table], [("2", "mm", "<= 10.0", "good", "2", "1.0")] * 4)
         self.assertEqual([float(row["mean"]) for row in table], [one.mean for one in verdicts])
         self.assertEqual(sorted(os.listdir(self.path("out"))),
                          ["farthest-sessions.csv", "farthest.csv"])  # no records, nothing half
+
+    def test_has_the_mean_distance_of_the_lab(self):
+        verdicts = self.judge("apart", seeds=1)
+        lab = Lab().run(self.experiment, self.path("lab"), seeds=1, jobs=1).rows("sessions.csv")
+        self.assertEqual(len(lab), 4)
+        for one, row in zip(verdicts, lab):
+            self.assertEqual(one.group[2:], (row["algorithm"], row["task"]))
+            self.assertAlmostEqual(one.mean / row["mean_mm"], 1.0, delta=0.01)
+
+    def test_says_how_many_sessions_are_usable_and_where_half_of_them_fail(self):
+        self.write("my.toml", EXPERIMENT.replace('["base", "sep"]', '"base"') +
+                   '[axis]\nkey = "both.delay"\nvalues = ["40ms", "0ms", "20ms", "30ms"]\n')
+        verdicts = self.judge("rising", seeds=5, at_most=33.0, unit="ms")
+        usable = {"40ms": 0, "0ms": 5, "20ms": 5, "30ms": 2}
+        self.assertEqual([(one.group.value, one.usable_seeds) for one in verdicts],
+                         [(value, count) for value, count in usable.items() for _ in range(2)])
+        table = self.rows("rising.csv")
+        self.assertEqual([int(row["usable_seeds"]) for row in table[::2]], list(usable.values()))
+        self.assertAlmostEqual(float(table[6]["usable_ci_low"]), 0.1176, delta=1e-4)
+
+        found = self.rows("rising-p50.csv")
+        self.assertEqual([(row["parameter"], row["algorithm"], row["task"], row["seeds"],
+                           row["bound"], row["unit"]) for row in found],
+                         [("both.delay", "base", task, "5", "=", "ms") for task in ("P1", "T3")])
+        for row in found:  # two of five pass at 30 ms, and all at 20 ms
+            self.assertTrue(28.0 < float(row["p50"]) < 30.0, row)
+            self.assertTrue(20.0 <= float(row["ci_low"]) < 28.0, row)
+            self.assertTrue(30.0 < float(row["ci_high"]) <= 40.0, row)
+        self.assertEqual(thresholds(verdicts)[Group("both.delay", "", "base", "T3")].p50,
+                         float(found[1]["p50"]))
+
+        self.judge("rising", seeds=5)  # without a limit no session is unusable
+        self.assertEqual({row["usable_seeds"] for row in self.rows("rising.csv")}, {""})
+        self.assertNotIn("rising-p50.csv", os.listdir(self.path("out")))
+
+    def test_goes_on_after_an_interrupt(self):
+        metric = self.path("mine.py") + ":rising"
+        words = [self.experiment, "--metric", metric, "--seeds", "1", "--jobs", "1",
+                 "--set", "duration=10s", "--set", "axis.key=both.jitter",
+                 "--set", "axis.from=0ms", "--set", "axis.to=12ms", "--set", "axis.step=1ms",
+                 "--out", self.path("out")]
+        sessions = self.path("out", "rising-playing", "sessions.jsonl")
+        with subprocess.Popen(self.command(*words), stdin=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True) as running:
+            end = time.monotonic() + 30.0
+            while lines_in(sessions) < 3 and time.monotonic() < end:
+                time.sleep(0.01)
+            running.send_signal(signal.SIGINT)
+            said = running.stderr.read()
+        self.assertEqual(running.returncode, 130, said)
+        self.assertIn("interrupted; the same command goes on", said)
+        played = lines_in(sessions)
+        self.assertGreaterEqual(played, 3)
+
+        again = subprocess.Popen(self.command(*words), stdin=subprocess.DEVNULL)
+        try:
+            manifest = self.path("out", "rising-playing", "manifest.json")
+            while not os.path.exists(manifest) and time.monotonic() < end + 60.0:
+                time.sleep(0.01)
+            with open(manifest, encoding="utf-8") as file:
+                self.assertIn(f'"reused": {played - 1}', file.read())
+        finally:
+            again.kill()
+            again.wait()
+
+    def test_leaves_out_what_an_interrupt_left_of_another_experiment(self):
+        Lab().run(self.experiment, self.path("out", "delay-playing"), seeds=1, jobs=1)
+        self.write("my.toml", EXPERIMENT.replace("judged", "judged otherwise"))
+        self.assertEqual(len(self.judge("delay", seeds=1)), 4)
+        self.assertNotIn("delay-playing", os.listdir(self.path("out")))
 
     def test_plays_only_what_is_missing(self):
         first = self.judge("farthest")
@@ -224,11 +347,13 @@ class AMetric(unittest.TestCase):
                  "--out", self.path("out")]
         done = self.program(*words, "--at-most", "10", code=0)
         self.assertEqual(done.stderr, "")  # it is no terminal
-        self.assertRegex(done.stdout, r"(?m)^base-P1: 4\.171 \(4\.171 to 4\.171\) mm good$")
+        self.assertRegex(done.stdout, 
+                         r"(?m)^base-P1: 4\.171 \(4\.171 to 4\.171\) mm good; usable 2 of 2$")
         self.assertEqual(len(read_csv(self.path("out", "farthest-sessions.csv"))), 8)
         self.program(*words, "--at-most", "2", code=1)
         told = self.program(*words[:-1], self.path("new"), "--progress", code=0).stderr
-        self.assertEqual(told.splitlines(), [f"session {i} of 8" for i in range(1, 9)])
+        self.assertEqual(told.splitlines(), [
+            *(f"session {i} of 8" for i in range(1, 9)), "tables"])
         said = self.program(self.experiment, "--metric", self.path("mine.py") + ":farther", "--out",
                             self.path("out"), code=2).stderr
         self.assertIn("has no function 'farther'", said)
@@ -260,6 +385,62 @@ class AVerdict(unittest.TestCase):
         _, low, high = mean_of([float(i) for i in range(1, 11)])
         self.assertAlmostEqual(low, 5.5 - 2.2622 * 3.0277 / 10**0.5, delta=1e-3)
         self.assertAlmostEqual(high, 5.5 + 2.2622 * 3.0277 / 10**0.5, delta=1e-3)
+
+
+class AThreshold(unittest.TestCase):
+    def test_is_that_of_the_lab(self):
+        with tempfile.TemporaryDirectory(prefix="hapnet-judge-") as folder:
+            path = os.path.join(folder, "limits.toml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(LIMITS)
+            done = Lab().run(path, os.path.join(folder, "lab"), jobs=1)
+            rows, curves = done.rows("limits.csv"), done.rows("curves.csv")
+        rows = [row for row in rows if row["task"] != "worst"]
+        self.assertEqual(len(rows), 4)
+        for row in rows:
+            failed = {}
+            for one in curves:
+                if one["counts"] == "true" and all(
+                        one[key] == row[key] for key in ("algorithm", "impairment", "task")):
+                    usable = one["tier"] in ("usable", "good")
+                    failed.setdefault(one["level"], {})[one["seed"]] = not usable
+            found = threshold_of(*zip(*(
+                (level, tuple(failed[level][seed] for seed in sorted(failed[level])))
+                for level in sorted(failed))))
+            for key in ("p50", "p10", "ci_low", "ci_high"):  # the table has two decimals
+                self.assertAlmostEqual(getattr(found, key), row[key], delta=0.00501, msg=row)
+            self.assertEqual(found.bound, row["bound"])
+
+    def test_may_lie_above_the_levels(self):
+        found = threshold_of((0.0, 10.0, 20.0), ((False,) * 8,) * 3)
+        self.assertEqual((found.p50, found.bound, found.ci_high), (20.0, ">", None))
+        self.assertEqual(threshold_of((0.0, 10.0), ((False,), (True,)))[:2], (5.0, "="))
+
+    def test_is_of_one_axis_over_an_impairment(self):
+        def of(parameter, values):
+            limits = Limits(at_most=1.0)
+            return thresholds([
+                judged(Group(parameter, value, "base", "T1"), {1: 0.0, 2: float(i)}, limits)
+                for i, value in enumerate(values)])
+
+        for parameter, values, level in (("both.delay", ("0ms", "20us", "0.04ms"), 0.04),
+                                         ("up.loss", ("0%", "5%", "10%"), 10.0),
+                                         ('link."1-2".jitter', ("0ms", "1ms", "2ms"), 2.0)):
+            found = of(parameter, values)[Group(parameter, "", "base", "T1")]
+            self.assertTrue(0.0 < found.p50 <= level, found)
+        for parameter, values in (("hands.stiffness", ("1N/m", "2N/m", "3N/m")), ("", ("",)),
+                                  ("both.delay", ("0ms",)), ("both.delay; hands", ("0ms; firm",)),
+                                  ("both.delay", ("0ms", '{ law = "gamma" }'))):
+            self.assertEqual(of(parameter, values), {})
+
+
+class AShare(unittest.TestCase):
+    def test_has_an_interval_that_tables_give(self):  # Brown, Cai, DasGupta 2001: 10 of 10, 0 of 10
+        for count, of, low, high in ((0, 10, 0.0, 0.2775), (10, 10, 0.7225, 1.0),
+                                     (5, 10, 0.2366, 0.7634), (0, 1, 0.0, 0.7935)):
+            found = share_interval(count, of)
+            self.assertAlmostEqual(found[0], low, delta=1e-4)
+            self.assertAlmostEqual(found[1], high, delta=1e-4)
 
 
 if __name__ == "__main__":

@@ -10,4 +10,4 @@ for module in pytest numpy pandas; do
     python3 -c "import $module" 2>/dev/null ||
         { echo "skipped: the module $module is missing (Debian: python3-$module)" && exit 77; }
 done
-exec "$1/tests/e2e/readme_test.sh" "$1/docs/use/python.md" "$2" 5
+exec "$1/tests/e2e/readme_test.sh" "$1/docs/use/python.md" "$2" 8
