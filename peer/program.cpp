@@ -166,7 +166,9 @@ Settings settings_of(const Options& options, const device::Rig& rig)
     settings.introduction.nonce = static_cast<std::uint32_t>(net::unpredictable_bits() | 1U);
     settings.introduction.scene_hash = scene::hash(options.scene);
     settings.introduction.seed = options.seed.value();
-    settings.introduction.boot = wire::boot_of(net::boot_id());
+    settings.introduction.clock = clock_hash(options.clock, net::boot_id());
+    settings.introduction.clock_error =
+        options.clock.synchronised_within.value_or(base::Duration{});
     settings.introduction.task = wire::TaskName::from_text(device::name_of(options.task)).value();
     settings.introduction.hand = hand_model_of(rig.device().capabilities());
     settings.scene = options.scene;
@@ -372,18 +374,19 @@ int finish(int code, const Screen& screen, const net::StopSignal& stop)
                                                                          : code;
 }
 
-/// Finishes the events, unless they are part of the program's own output.
-int finish_events(int code, const std::optional<monitor::EventLog>& events, Screen& screen,
+/// Finishes the events, unless they are part of the program's own output. Returns the exit code
+/// that they cause.
+int finish_events(const std::optional<monitor::EventLog>& events, Screen& screen,
                   const net::StopSignal& stop)
 {
-    if (!events || &events->queue() == &screen.out) return code;
+    if (!events || &events->queue() == &screen.out) return 0;
     const net::TextQueue& queue = events->queue();
     loop::wait_for_readers(queue, stop);
-    if (queue.is_done() && queue.lost() == 0) return code;
+    if (queue.is_done() && queue.lost() == 0) return 0;
     screen.say(fmt::format("--events: some are missing: {}", queue.error() != 0
                                                                  ? std::strerror(queue.error())
                                                                  : "its reader did not take them"));
-    return code == 0 ? net::exit_environment : code;
+    return net::exit_environment;
 }
 
 /// Returns the log to the file that the options name, which is emptied, or to stdout.
@@ -399,6 +402,18 @@ std::optional<monitor::PlotStream> plot_for(const std::optional<net::Endpoint>& 
 {
     if (!plotter) return std::nullopt;
     return std::optional<monitor::PlotStream>{std::in_place, *plotter, id, monitor.watch_frames()};
+}
+
+/// Returns the input of reports, without lost texts.
+monitor::Run run_of(const Options& options, const loop::ServoStatus& status,
+                    const std::string& device, const monitor::Monitor& monitor)
+{
+    return {.options = options,
+            .status = status,
+            .device = device,
+            .is_record_whole = monitor.is_record_whole(),
+            .rows_lost = monitor.rows_lost(),
+            .are_events_whole = monitor.are_events_whole()};
 }
 
 /// Runs a session, from opening the device to writing the files.
@@ -454,15 +469,17 @@ int play(const Options& options, const Endpoints& endpoints, const net::StopSign
 
     if (kept) kept->on_rest(rig.governor().heat());
     const loop::ServoStatus status = servo.status();
-    const monitor::Run run{
-        options, status, device, monitor.is_record_whole(), monitor.rows_lost(), screen.lost()};
+    const int events_code = finish_events(events, screen, stop);
+    monitor::Run run = run_of(options, status, device, monitor);
+    run.texts_lost = screen.lost();
     const int written = write_statistics(run, outlets.statistics, screen);
-    const int code = std::max(written, conclude(run, rig.governor(), screen));
-    return finish(finish_events(code, events, screen, stop), screen, stop);
+    const int code = std::max({events_code, written, conclude(run, rig.governor(), screen)});
+    return finish(code, screen, stop);
 }
 
 base::Result<int> run(Options options)
 {
+    if (options.clock.synchronised_within) net::count_from_common_date();
     const auto endpoints = look_up(options);
     if (!endpoints) return tl::unexpected{endpoints.error()};
     const net::StopSignal stop; // must exist before any thread starts

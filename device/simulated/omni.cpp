@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "device/simulated/omni.hpp"
 
+#include "proto/base/math.hpp"
+
 #include <algorithm>
+#include <numbers>
 #include <spdlog/fmt/fmt.h>
 
 namespace hapnet::device {
@@ -39,7 +42,7 @@ SimulatedOmni::SimulatedOmni(const Performer& performer)
                      .stiffness_max_n_per_m = 700.0,
                      .damping_max_ns_per_m = 5.0,
                      .resolution_m = plant.resolution_m,
-                     .friction_n = plant.friction_n};
+                     .friction_n = plant.stated_friction_n.value_or(plant.friction_n)};
 }
 
 void SimulatedOmni::on_cue(const Cue& cue)
@@ -77,10 +80,22 @@ void SimulatedOmni::apply(const GovernedForce& force)
 void SimulatedOmni::advance(const Person::Aim& aim, base::TimePoint now)
 {
     const base::Duration elapsed = now - *simulated_to_;
+    const glm::dvec3 force = force_at_grip(elapsed);
     const Person::Effort effort =
-        person_.effort(aim, {position() - intended_.value, force_}, now, elapsed);
-    go_on(effort.target, force_ + effort.force, elapsed);
+        person_.effort(aim, {position() - intended_.value, force}, now, elapsed);
+    go_on(effort.target, force + effort.force, elapsed);
     intended_ = effort.target;
+}
+
+/// Returns the force at the grip after this time.
+const glm::dvec3& SimulatedOmni::force_at_grip(base::Duration elapsed)
+{
+    const auto& cutoff_hz = performer_.plant.force_bandwidth_hz;
+    if (!cutoff_hz) return force_;
+    const double share =
+        1.0 - base::exp(-2.0 * std::numbers::pi * *cutoff_hz * base::to_seconds(elapsed));
+    at_grip_ += share * (force_ - at_grip_);
+    return at_grip_;
 }
 
 void SimulatedOmni::go_on(const base::Position& target, const glm::dvec3& force,

@@ -4,6 +4,7 @@
 
 #include "device/device.hpp"
 #include "device/simulated/hand_motion.hpp"
+#include "device/simulated/omni_plant.hpp"
 #include "device/simulated/person.hpp"
 #include "device/velocity_filter.hpp"
 
@@ -13,16 +14,6 @@
 #include <optional>
 
 namespace hapnet::device {
-
-/// The figures of a PHANToM Omni's data sheet, per Cartesian axis.
-struct OmniPlant {
-    double force_max_n = 3.3;
-    double force_continuous_n = 0.88;
-    double friction_n = 0.26;       // back-drive, Coulomb
-    double resolution_m = 0.000055; // nominal position resolution
-    glm::dvec3 half_workspace_m{0.080, 0.060, 0.035};
-    double velocity_cutoff_hz = 30.0; // cutoff of the filter on differenced positions
-};
 
 /// A simulated person and the task to play.
 struct Performer {
@@ -55,6 +46,7 @@ public:
 
 private:
     void advance(const Person::Aim& aim, base::TimePoint now);
+    [[nodiscard]] const glm::dvec3& force_at_grip(base::Duration elapsed);
     void go_on(const base::Position& target, const glm::dvec3& force, base::Duration elapsed);
     void stop_at_workspace_end(int axis);
     [[nodiscard]] glm::dvec3 position() const;
@@ -69,7 +61,8 @@ private:
     HandMotion motion_;
     Person person_;
     std::array<HandAxis, 3> axes_{HandAxis{}, HandAxis{}, HandAxis{.position_m = 0.035}};
-    glm::dvec3 force_{0.0};
+    glm::dvec3 force_{0.0};                      // the force that is asked for
+    glm::dvec3 at_grip_{0.0};                    // the force at the grip, if it follows late
     base::Position intended_{{0.0, 0.0, 0.035}}; // intended position at simulated_to_
     std::optional<base::TimePoint> simulated_to_;
     VelocityFilter velocity_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/files.hpp"
 
+#include "lab/records/recorded_settings.hpp"
 #include "lab/results/table_text.hpp"
 #include "peer/shared_object/load.hpp"
 #include "proto/disk/result_file.hpp"
@@ -108,15 +109,9 @@ base::Result<record::Record> read_record(const std::string& path)
         net::say("hapnet-lab", path + " ends inside a row, which is left out: its writer was "
                                       "killed or its disk was full");
     }
-    if (record && record->config.value("program", "") == "hapnet-peer") {
-        const auto wire = record->config.value("wire", std::int64_t{1}); // missing in version 1
-        if (wire != wire::protocol_version) {
-            return base::fail(
-                fmt::format("{}: its messages are of version {} of the wire, and this "
-                            "program reads version {}: use the hapnet-lab of the "
-                            "version that recorded it",
-                            path, wire, wire::protocol_version));
-        }
+    if (record) {
+        if (const auto fine = records::check_wire(record->config); !fine)
+            return base::fail(fmt::format("{}: {}", path, fine.error().message));
     }
     return record;
 }

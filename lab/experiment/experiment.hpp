@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device/replay/hand_trace.hpp"
+#include "device/simulated/omni_plant.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 #include "device/simulated/task_options.hpp"
@@ -11,6 +12,7 @@
 #include "lab/hands/population.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "lab/metrics/verdict.hpp"
+#include "peer/core/clock_policy.hpp"
 #include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/time.hpp"
@@ -240,6 +242,8 @@ struct Experiment {
     std::vector<NamedTrace> script{};
     peer::SendPolicy send{};
     peer::Playout playout = peer::Playout::none;
+    peer::ClockPolicy clock{};
+    device::OmniPlant device{};
     /// True if a session is as long as its own script. `duration` is then that of the longest.
     bool is_as_long_as_scripts = false;
     bool energy_limit = false;

@@ -308,6 +308,10 @@ constexpr auto fields_of(base::Tag<Experiment> /*struct*/)
                     "when a player sends a message, as `hapnet-peer --send`"),
         base::field("playout", &Experiment::playout,
                     "when a message that has arrived counts, as `hapnet-peer --playout`"),
+        base::field("clock", &Experiment::clock, peer::ClockPolicyFormat{},
+                    "knowledge of the other players' clocks, as `hapnet-peer --clock`; where they "
+                    "are synchronised within an error, they are apart by twice that"),
+        base::field("device", &Experiment::device, base::Table{}, "the simulated devices"),
         base::field("energy_limit", &Experiment::energy_limit,
                     "limits the energy into each hand as hapnet-peer does"),
         base::field("keyed", &Experiment::keyed,

@@ -65,13 +65,26 @@ std::string playout_text(peer::Playout playout)
                                           : fmt::format("playout = {}\n", base::name_of(playout));
 }
 
+/// Returns the line of the key `clock`; empty where clocks are compared by echoes.
+std::string clock_text(const peer::ClockPolicy& clock)
+{
+    return clock == peer::ClockPolicy{} ? "" : fmt::format("clock = {}\n", text_of(clock));
+}
+
+/// Returns the lines of the table `device`; empty for the device of the data sheet.
+std::string device_text(const device::OmniPlant& plant)
+{
+    return plant == device::OmniPlant{} ? "" : base::field_lines(plant);
+}
+
 std::string player_text(const virtual_time::PlayerSetting& player)
 {
     return fmt::format(
-        "{}{}clock_ahead = {}\nphase = {}\n{}{}{}{}{}", peer::print_algorithm(player.algorithm),
+        "{}{}clock_ahead = {}\nphase = {}\n{}{}{}{}{}{}{}", peer::print_algorithm(player.algorithm),
         device::print_operator(player.person), player.clock_ahead.count(), player.phase.count(),
         way_text("replay", player.replay), way_text("script", player.way), ticks_text(player.ticks),
-        send_text(player.send), playout_text(player.playout));
+        send_text(player.send), playout_text(player.playout), clock_text(player.clock),
+        device_text(player.omni));
 }
 
 /// Returns hashes of the contents of the files that a setting's text names. For example, the text
@@ -114,6 +127,11 @@ SessionSpec make_session_spec(const Experiment& experiment, const SessionCase& o
         setting.players[seat].algorithm = one.algorithm.algorithm;
         setting.players[seat].send = experiment.send;
         setting.players[seat].playout = experiment.playout;
+        setting.players[seat].clock = experiment.clock;
+        setting.players[seat].omni = experiment.device;
+        // The worst that the stated error allows: one clock is ahead by it, the other behind.
+        const auto error = experiment.clock.synchronised_within.value_or(base::Duration{});
+        setting.players[seat].clock_ahead = seat % 2 == 0 ? -error : error;
         setting.players[seat].person = seat % 2 == 0 ? one.hands.left : one.hands.right;
         if (!experiment.replay.empty())
             setting.players[seat].replay = experiment.replay[seat % 2].trace;
@@ -129,6 +147,10 @@ SessionSpec perfect_twin(const SessionSpec& spec)
 {
     SessionSpec twin = spec;
     twin.setting.profile = {};
+    for (auto& player : twin.setting.players) {
+        player.clock = {};
+        player.clock_ahead = {};
+    }
     twin.rows_per_s = 0;
     return twin;
 }

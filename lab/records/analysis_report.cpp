@@ -231,6 +231,9 @@ std::vector<TextTable> tables_of(const Analysis& analysis)
 std::string clock_text(const Clock& clock)
 {
     if (clock.method == ClockMethod::same_boot) return "";
+    if (clock.method == ClockMethod::synchronised)
+        return fmt::format("two clocks that are synchronised within {:.3f} ms",
+                           ms(clock.uncertainty));
     return fmt::format("two clocks: B is {:.3f} ms ahead of A, known within {:.3f} ms",
                        ms(clock.offset), ms(clock.uncertainty));
 }

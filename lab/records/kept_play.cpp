@@ -62,6 +62,7 @@ nlohmann::json kept_config(const virtual_time::Setting& setting, std::size_t sea
             {"algorithm_toml", peer::print_algorithm(player.algorithm)},
             {"send", text_of(player.send)},
             {"playout", base::name_of(player.playout)},
+            {"clock", text_of(player.clock)},
             {"governor_toml", device::print_limits(limits)},
             {"mount", {{"scale", 1.0}, {"offset_m", {0.0, 0.0, 0.0}}}},
             {"seed", player.seed.value_or(setting.seed).value()},
@@ -103,6 +104,9 @@ base::Result<std::vector<KeptRecord>> play_and_keep(const virtual_time::Setting&
     const auto is_sealed = [](const auto& player) { return player.circle.has_value(); };
     if (std::ranges::any_of(setting.players, is_sealed))
         return base::fail("a record holds messages without keys: use keyed = false");
+    const auto is_apart = [](const auto& player) { return player.clock != peer::ClockPolicy{}; };
+    if (std::ranges::any_of(setting.players, is_apart))
+        return base::fail("a record in virtual time has one clock: use clock = \"echo\"");
     if (setting.tick != 1ms) return base::fail("a record has ticks of 1 ms: use tick = \"1ms\"");
     VirtualWorld world{setting};
     std::vector<KeptRecord> kept(world.sides());

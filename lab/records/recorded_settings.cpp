@@ -4,6 +4,7 @@
 
 #include "device/governor/limits_text.hpp"
 #include "device/mechanisms.hpp"
+#include "peer/core/clock_policy.hpp"
 #include "peer/core/shared_body.hpp"
 #include "peer/core/sync/text.hpp"
 #include "proto/base/fields_json.hpp"
@@ -56,6 +57,7 @@ struct WrittenConfig {
     std::string algorithm_toml;
     std::optional<std::string> send{};      // older records do not have it
     std::optional<peer::Playout> playout{}; // older records do not have it
+    std::optional<std::string> clock{};     // older records do not have it
     std::string governor_toml;
     WrittenMount mount{};
 };
@@ -72,8 +74,8 @@ constexpr auto fields_of(base::Tag<WrittenConfig>)
         base::member("boot_id", &Own::boot_id), base::member("peers", &Own::peers),
         base::member("wait_for", &Own::wait_for), base::member("scene_toml", &Own::scene_toml),
         base::member("algorithm_toml", &Own::algorithm_toml), base::member("send", &Own::send),
-        base::member("playout", &Own::playout), base::member("governor_toml", &Own::governor_toml),
-        base::member("mount", &Own::mount));
+        base::member("playout", &Own::playout), base::member("clock", &Own::clock),
+        base::member("governor_toml", &Own::governor_toml), base::member("mount", &Own::mount));
 }
 
 bool can_play(std::span<const std::uint16_t> others, std::uint16_t self)
@@ -127,6 +129,21 @@ base::Result<void> read_play(const WrittenConfig& written, std::span<const peer:
 
 } // namespace
 
+base::Result<void> check_wire(const nlohmann::json& config)
+{
+    const auto program = config.value(nlohmann::json::json_pointer{"/program"}, nlohmann::json(""));
+    if (!program.is_string()) return base::fail("its config: 'program' is not a text");
+    if (program != "hapnet-peer") return {};
+    const auto wire =
+        config.value(nlohmann::json::json_pointer{"/wire"}, nlohmann::json(1)); // none in version 1
+    if (!wire.is_number_integer()) return base::fail("its config: 'wire' is not a whole number");
+    if (wire == wire::protocol_version) return {};
+    return base::fail(fmt::format("its messages are of version {} of the wire, and this program "
+                                  "reads version {}: use the hapnet-lab of the version that "
+                                  "recorded it",
+                                  wire.dump(), wire::protocol_version));
+}
+
 base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
 {
     if (config.is_object() && config.value("begins_late", nlohmann::json{}) == true) {
@@ -159,7 +176,10 @@ base::Result<RecordedSettings> settings_of(const nlohmann::json& config)
     settings.roster.wait_for = written->wait_for.value_or(0);
     settings.introduction.seed = written->seed;
     settings.introduction.task = *name;
-    settings.introduction.boot = wire::boot_of(written->boot_id.value_or(""));
+    const auto clock = peer::parse_clock_policy(written->clock.value_or("echo"));
+    if (!clock) return base::fail("its config: 'clock': " + clock.error().message);
+    settings.introduction.clock = clock_hash(*clock, written->boot_id.value_or(""));
+    settings.introduction.clock_error = clock->synchronised_within.value_or(base::Duration{});
     settings.tick = base::Duration{static_cast<base::Duration::rep>(written->tick_ns)};
     settings.grip_damping_ns_per_m = written->grip_damping_ns_per_m;
     settings.stiffness_max_n_per_m = written->stiffness_max_n_per_m.value_or(0.0);

@@ -18,6 +18,9 @@ struct RecordedSettings {
     device::Mount mount;
 };
 
+/// Fails for the configuration of a record whose messages are of another version of the wire.
+[[nodiscard]] base::Result<void> check_wire(const nlohmann::json& config);
+
 /// Returns the settings of a record with this configuration. The error names the wrong key.
 [[nodiscard]] base::Result<RecordedSettings> settings_of(const nlohmann::json& config);
 

@@ -3,6 +3,7 @@
 #include "lab/records/session.hpp"
 
 #include "lab/records/bodies.hpp"
+#include "peer/core/clock_policy.hpp"
 #include "proto/base/clock_pair.hpp"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ namespace {
 struct Peer {
     std::int64_t id = 0;
     std::string boot_id;
+    peer::ClockPolicy clock;
     base::Duration tick{};
     std::string task;
 };
@@ -43,6 +45,8 @@ base::Result<Peer> peer_of(const record::Record& record)
     peer.id = id.get<std::int64_t>();
     peer.boot_id = boot_id.get<std::string>();
     peer.tick = base::Duration{tick.get<std::int64_t>()};
+    if (const auto clock = find("/clock"); clock.is_string())
+        peer.clock = peer::parse_clock_policy(clock.get<std::string>()).value_or(peer.clock);
     if (const auto task = find("/task"); task.is_string()) peer.task = task.get<std::string>();
     return peer;
 }
@@ -101,11 +105,18 @@ Side side_of(const record::Record& record, std::uint32_t session, std::int64_t p
 
 Clock clock_between(const Peer& a, const Peer& b, const record::SessionRow& terms_of_a)
 {
+    const bool are_synchronised = a.clock.synchronised_within && b.clock.synchronised_within;
     const bool is_one_boot = !a.boot_id.empty() && a.boot_id == b.boot_id;
+    const auto within = are_synchronised
+                            ? *a.clock.synchronised_within + *b.clock.synchronised_within
+                            : base::Duration{};
     const bool is_ruled_out =
-        base::are_two_clocks(terms_of_a.remote_offset, terms_of_a.offset_uncertainty);
-    if (is_one_boot && !is_ruled_out) return {};
-    return clock_of(terms_of_a);
+        base::are_two_clocks(terms_of_a.remote_offset, terms_of_a.offset_uncertainty + within);
+    if (is_ruled_out || !(are_synchronised || is_one_boot)) return clock_of(terms_of_a);
+    if (!are_synchronised) return {};
+    // A peer that took the clocks for one has noted no offset at all.
+    if (terms_of_a.remote_offset != base::Duration{0}) return clock_of(terms_of_a);
+    return {.method = ClockMethod::synchronised, .uncertainty = within};
 }
 
 } // namespace

@@ -16,11 +16,15 @@
 namespace hapnet::lab::records {
 
 enum class ClockMethod : std::uint8_t {
-    same_boot, ///< one machine, one clock: nothing to convert
-    echo,      ///< two clocks, compared by the echoes in the messages
+    same_boot,    ///< one machine, one clock: nothing to convert
+    synchronised, ///< clocks that both peers state to be synchronised: nothing to convert
+    echo,         ///< two clocks, compared by the echoes in the messages
 };
 
-constexpr auto names_of(base::Tag<ClockMethod>) { return base::names("same-boot", "echo"); }
+constexpr auto names_of(base::Tag<ClockMethod>)
+{
+    return base::names("same-boot", "synchronised", "echo");
+}
 
 /// The relation of B's clock to A's clock.
 struct Clock {
@@ -54,8 +58,8 @@ constexpr auto fields_of(base::Tag<Clock>)
     return base::fields(
         "clock",
         base::member("method", &Clock::method,
-                     "`same-boot`: one machine, one clock. `echo`: two clocks, "
-                     "compared by the echoes."),
+                     "`same-boot`: one machine, one clock. `synchronised`: both peers state that "
+                     "their clocks are. `echo`: two clocks, compared by the echoes."),
         base::member("offset_ms", &Clock::offset, "B's clock minus A's."),
         base::member("uncertainty_ms", &Clock::uncertainty, "The bound of its error."));
 }

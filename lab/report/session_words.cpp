@@ -130,6 +130,10 @@ std::string about_clocks(const RecordedSession& session)
     const records::Clock& clock = session.analysis.clock;
     if (clock.method == records::ClockMethod::same_boot)
         return "Both peers ran on one machine, so both stamps of a message are of one clock.";
+    if (clock.method == records::ClockMethod::synchronised)
+        return fmt::format("Two clocks, which both peers state to be synchronised: each delay may "
+                           "be wrong by up to {:.3f} ms.",
+                           1e3 * base::to_seconds(clock.uncertainty));
     return fmt::format(
         "Two clocks: B’s was {:.3f} ms ahead of A’s, and ran {:.1f} ppm faster. That is estimated "
         "from the echoes in the messages, as if the shortest delays of both directions were "

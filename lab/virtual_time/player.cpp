@@ -55,6 +55,10 @@ peer::Settings settings_of(const Setting& setting, const PlayerId& id,
                              .tick_rate_hz = tick_rate_hz(setting.tick),
                              .task = wire::TaskName::from_text(name_of(setting.task)).value()};
     settings.introduction.hand = peer::hand_model_of(capabilities);
+    if (const auto& within = player.clock.synchronised_within) {
+        settings.introduction.clock = clock_hash(player.clock, "");
+        settings.introduction.clock_error = *within;
+    }
     return settings;
 }
 
@@ -67,6 +71,7 @@ std::unique_ptr<device::Device> device_of(const Setting& setting, const PlayerId
         device::Performer{.task = setting.task,
                           .options = setting.task_options,
                           .person = player.person,
+                          .plant = player.omni,
                           .way = player.way});
 }
 
@@ -82,11 +87,15 @@ secure::Secret secret_of(std::uint64_t circle, std::uint64_t run)
 }
 
 /// Returns the keys of a circle, in the form of a key file for each of its members.
-std::vector<secure::KeyFile> key_files(base::Seed circle, std::size_t players)
+std::vector<secure::KeyFile> key_files(base::Seed circle, std::size_t players, bool shared)
 {
     secure::prepare();
     secure::Entropy entropy{secret_of(circle.value(), 0)};
-    return secure::make_circle("virtual", static_cast<std::uint8_t>(players), entropy);
+    auto files = secure::make_circle("virtual", static_cast<std::uint8_t>(players), entropy);
+    if (!shared) {
+        for (secure::KeyFile& file : files) file.pre_shared = secure::Secret{};
+    }
+    return files;
 }
 
 constexpr glm::dquat unturned{1.0, 0.0, 0.0, 0.0};
@@ -117,8 +126,9 @@ std::vector<peer::line::Line> lines_of(const Setting& setting, const PlayerId& i
     const std::size_t count = setting.players.size();
     std::vector<peer::line::Line> lines;
     lines.reserve(count - 1);
-    if (const auto& circle = setting.players.at(id.seat).circle) {
-        const auto files = key_files(*circle, count);
+    const PlayerSetting& player = setting.players.at(id.seat);
+    if (const auto& circle = player.circle) {
+        const auto files = key_files(*circle, count, player.has_shared_key);
         const secure::KeyFile& own = files.at(id.seat);
         for (const auto& other : own.others) lines.push_back(sealed_line(own, other, id, *circle));
         return lines;

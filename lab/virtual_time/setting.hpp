@@ -4,10 +4,12 @@
 
 #include "device/page/page_hand.hpp"
 #include "device/replay/hand_trace.hpp"
+#include "device/simulated/omni_plant.hpp"
 #include "device/simulated/operator.hpp"
 #include "device/simulated/task.hpp"
 #include "device/simulated/task_options.hpp"
 #include "emulator/core/profile/profile.hpp"
+#include "peer/core/clock_policy.hpp"
 #include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
 #include "proto/base/random.hpp"
@@ -29,7 +31,9 @@ struct PlayerSetting {
     peer::Algorithm algorithm{};
     peer::SendPolicy send{};
     peer::Playout playout = peer::Playout::none;
+    peer::ClockPolicy clock{};
     device::Operator person{};
+    device::OmniPlant omni{}; // the device that the person holds
     /// The recorded hand that plays instead of the person. It has at least one moment; the moments
     /// are in the order of time.
     std::shared_ptr<const device::HandTrace> replay{};
@@ -49,6 +53,8 @@ struct PlayerSetting {
     /// The seed of the circle. The circle's keys follow from it and seal the player's messages.
     /// Players meet only within a circle. nullopt: without a key.
     std::optional<base::Seed> circle{};
+    /// True if that circle has a shared key; one of `keygen --own` has none. Equal for all players.
+    bool has_shared_key = true;
 };
 
 /// All inputs of a session in virtual time. Equal settings give equal bits.

@@ -9,6 +9,7 @@
 #include "proto/base/text.hpp"
 #include "proto/cli/parsers.hpp"
 #include "proto/cli/synonyms.hpp"
+#include "proto/net/clock.hpp"
 #include "proto/net/text_file.hpp"
 #include "scene/text/text.hpp"
 
@@ -55,6 +56,25 @@ base::Result<double> parse_force_limit(const std::string& text)
                                       base::quantity_text(force_limit_min_n, base::force_kind)));
     }
     return force;
+}
+
+/// Parses how clocks are known. Where no error is given, it is the one that the system states.
+base::Result<ClockPolicy> host_clock_policy(const std::string& text)
+{
+    auto policy = parse_clock_policy(text);
+    const bool asks_system = policy && policy->synchronised_within == base::Duration{0};
+    if (!asks_system) return policy;
+    policy->synchronised_within = net::stated_clock_error();
+    if (policy->synchronised_within > ClockPolicy::error_max)
+        return base::fail(fmt::format("'{}': the system states an error of {}, and 1s is possible: "
+                                      "give the largest error yourself: synchronised:2ms",
+                                      text, base::to_text(*policy->synchronised_within)));
+    if (!policy->synchronised_within)
+        return base::fail(fmt::format("'{}': no service of this host keeps its clock: start one "
+                                      "(chrony, ptp4l with phc2sys), or give the largest error "
+                                      "yourself: synchronised:2ms",
+                                      text));
+    return policy;
 }
 
 /// Loads a scene, and refuses it if peers cannot share it.
@@ -343,6 +363,12 @@ void add_session_options(cli::Command& program, Options& options, Asked& asked)
         "When a message that has arrived counts: at once (none, the default), or evenly, "
         "as they were sent, after a delay that follows the path's jitter (adaptive)",
         cli::into(options.playout, cli::named<Playout>));
+    program.option("--clock", "echo|synchronised[:ERROR]",
+                   "How the others' clocks are known: by echoes in messages (echo, the default), "
+                   "or because NTP or PTP keeps this host's clock and theirs within ERROR "
+                   "(synchronised; without ERROR the one that the system states). Helps where one "
+                   "way takes longer than the other. Counts where both peers have it",
+                   cli::into(options.clock, host_clock_policy));
     program.option("--seed", "NUMBER",
                    "Seed for every random draw of the hands; the lower id's counts (default 1)",
                    cli::into(options.seed, cli::seed));

@@ -5,6 +5,7 @@
 #include "device/simulated/task.hpp"
 #include "peer/cli/device_options.hpp"
 #include "peer/cli/key_options.hpp"
+#include "peer/core/clock_policy.hpp"
 #include "peer/core/others.hpp"
 #include "peer/core/send_policy.hpp"
 #include "peer/core/sync/algorithm.hpp"
@@ -40,6 +41,7 @@ struct Options {
     Algorithm algorithm;
     SendPolicy send{};
     Playout playout = Playout::none;
+    ClockPolicy clock{};
     base::Seed seed{1};
     base::Duration duration{std::chrono::seconds{30}};
     bool insecure = false;

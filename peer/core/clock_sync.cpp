@@ -51,7 +51,12 @@ void ClockSync::add(const ClockSample& s)
 bool ClockSync::shows_same_clock(const Window& sample)
 {
     if (same_clock_ == SameClock::no) return false;
-    if (!base::are_two_clocks(sample.offset, sample.round_trip / 2)) {
+    if (sample.round_trip / 2 < same_within_) {
+        same_clock_ = SameClock::no;
+        return false;
+    }
+    same_round_trip_ = std::min(same_round_trip_, sample.round_trip);
+    if (!base::are_two_clocks(sample.offset, sample.round_trip / 2 + same_within_)) {
         same_clock_ = SameClock::seen;
         ruled_out_ = 0;
         return true;
@@ -183,11 +188,12 @@ void ClockSync::follow(base::TimePoint now)
 
 std::optional<ClockEstimate> ClockSync::estimate() const
 {
-    if (same_clock_ == SameClock::seen) return ClockEstimate{};
+    if (same_clock_ == SameClock::seen)
+        return ClockEstimate{.uncertainty = same_within_, .round_trip = same_round_trip_};
     if (!first_) return std::nullopt;
     // The deviation that slewing has not corrected yet is also uncertain.
     const base::Duration behind = std::chrono::abs(fit_.at_time(said_at_) - said_);
-    return ClockEstimate{said_, fit_.uncertainty + behind, 1e6 * fit_.skew};
+    return ClockEstimate{said_, fit_.uncertainty + behind, 1e6 * fit_.skew, {}};
 }
 
 } // namespace hapnet::peer

@@ -25,6 +25,7 @@ struct ClockEstimate {
     base::Duration uncertainty{}; // half the least round trip, which bounds what asymmetry can
                                   // hide, and what the fit may err by
     double skew_ppm = 0.0;        // how much faster the remote's clock runs
+    base::Duration round_trip{};  // the least one where the clocks are one, else 0
 };
 
 /// Estimates the remote's clock from echoes (NTP's offset, RFC 5905 section 8). A queueing delay
@@ -38,9 +39,11 @@ struct ClockEstimate {
 /// moved), the estimate is in doubt from the first sample on. The jump is recognised after eight
 /// seconds, and then the estimate steps once.
 ///
-/// Two peers that report the same boot share a clock, so their offset is zero. This is assumed from
-/// the first sample that is consistent with it. Inconsistent samples end the assumption: at first a
-/// single one does; later it takes eight in a row, as one may be damaged.
+/// Two peers that report the same boot share a clock, and two that report synchronised clocks have
+/// one up to a stated error. Then their offset is zero. This is assumed from the first sample that
+/// is consistent with it. Inconsistent samples end the assumption: at first a single one does;
+/// later it takes eight in a row, as one may be damaged. A round trip whose half is below the
+/// stated error ends it, too, because echoes are then more exact.
 class ClockSync {
 public:
     static constexpr base::Duration window{std::chrono::seconds{1}};
@@ -57,9 +60,13 @@ public:
 
     /// Adds a sample. Ignores it if the round trip is negative or the offset exceeds ten years.
     void add(const ClockSample& sample);
-    /// Notes that both peers report the same boot, so their clocks are one unless samples rule that
-    /// out.
-    void set_same_clock() { same_clock_ = SameClock::claimed; }
+    /// Notes that both peers report the same clock, with two readings of it at most `within` apart,
+    /// so their offset is zero unless samples rule that out.
+    void set_same_clock(base::Duration within)
+    {
+        same_clock_ = SameClock::claimed;
+        same_within_ = within;
+    }
 
     /// Returns nullopt before the first sample.
     [[nodiscard]] std::optional<ClockEstimate> estimate() const;
@@ -109,6 +116,8 @@ private:
     void follow(base::TimePoint now);
 
     SameClock same_clock_ = SameClock::no;
+    base::Duration same_within_{}; // what two readings of a shared clock may differ by
+    base::Duration same_round_trip_{base::Duration::max()}; // the least while the clock is shared
     std::uint32_t ruled_out_ = 0; // consecutive samples that rule out a shared clock
     std::optional<base::TimePoint> first_;
     std::optional<Window> open_; // window of the current second

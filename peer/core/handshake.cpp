@@ -70,7 +70,8 @@ void Handshake::meet(const wire::Hello& hello)
 {
     remote_ = RemotePeer{.nonce = hello.nonce, .id = hello.peer_id};
     clock_.reset();
-    if (hello.boot != 0 && hello.boot == self_.boot) clock_.set_same_clock();
+    // The other's clock may be off as much, the other way.
+    if (hello.boot != 0 && hello.boot == self_.clock) clock_.set_same_clock(2 * self_.clock_error);
     last_heard_.reset();
     start_heard_.reset();
     other_start_.reset();
@@ -247,7 +248,7 @@ std::optional<wire::Hello> Handshake::hello(base::TimePoint now, std::uint32_t h
     hello.task = self_.task;
     hello.length_ms = in_milliseconds(session_ ? session_->length : self_.length);
     hello.heard = heard;
-    hello.boot = self_.boot;
+    hello.boot = self_.clock;
     hello.hand = self_.hand;
     return hello;
 }

@@ -20,9 +20,11 @@ struct Introduction {
     std::uint16_t tick_rate_hz = 1000;
     wire::TaskName task;
     base::Duration length{std::chrono::seconds{30}}; // length of the session: Settings::length
-    /// A hash of this machine's boot id. Peers with equal hashes share a clock. 0: unknown.
-    std::uint32_t boot = 0;
-    wire::HandModel hand{}; // a value of 0 is unknown
+    /// The name of this peer's clock: clock_hash(). Peers with equal ones share a clock. 0:
+    /// unknown.
+    std::uint32_t clock = 0;
+    base::Duration clock_error{}; // the largest error of that clock; 0 within one machine
+    wire::HandModel hand{};       // a value of 0 is unknown
 };
 
 /// The session that two peers have agreed on, from the point of view of one of them.

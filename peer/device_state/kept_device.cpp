@@ -57,9 +57,8 @@ std::string_view KeptDevice::why_untested() const
 double KeptDevice::heat_at_start(base::Duration heat_time) const
 {
     const double now_s = net::wall_clock_seconds();
-    return device_state::heat_at_start(
-        state_, {now_s, now_s - base::to_seconds(net::monotonic_now().time_since_epoch())},
-        heat_time);
+    return device_state::heat_at_start(state_, {now_s, now_s - base::to_seconds(net::since_boot())},
+                                       heat_time);
 }
 
 void KeptDevice::on_use()

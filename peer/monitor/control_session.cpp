@@ -22,8 +22,13 @@ ControlSession::ControlSession(Parts parts) : parts_{std::move(parts)}, subject_
 control::Subject ControlSession::subject()
 {
     const auto run = [this] {
-        return Run{parts_.options, *status_, parts_.device, parts_.monitor.is_record_whole(),
-                   parts_.monitor.rows_lost()};
+        return Run{parts_.options,
+                   *status_,
+                   parts_.device,
+                   parts_.monitor.is_record_whole(),
+                   parts_.monitor.rows_lost(),
+                   0,
+                   parts_.monitor.are_events_whole()};
     };
     decltype(PeerControl::hand) hand;
     if (const auto& page = parts_.options.device.page) {

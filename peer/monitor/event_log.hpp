@@ -43,6 +43,8 @@ public:
     }
 
     [[nodiscard]] const net::TextQueue& queue() const { return queue_; }
+    /// True if no line has been lost so far.
+    [[nodiscard]] bool is_whole() const { return queue_.error() == 0 && queue_.lost() == 0; }
 
 private:
     std::optional<net::TextQueue> own_; // nullopt: events go to stdout

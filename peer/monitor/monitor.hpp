@@ -94,6 +94,8 @@ public:
     /// True if the record has all rows so far, or will have them. After close() it is false until
     /// is_done().
     [[nodiscard]] bool is_record_whole() const;
+    /// True if no event has been lost so far.
+    [[nodiscard]] bool are_events_whole() const { return log_ == nullptr || log_->is_whole(); }
     /// Returns the number of rows that were dropped on their way to the record.
     [[nodiscard]] std::uint64_t rows_lost() const;
     /// Returns the number of rows that have been written to the record. It grows as long as the

@@ -102,6 +102,7 @@ PeerStatistics statistics_of(const Run& run)
                            run.rows_lost + status.loop.unrecorded + status.loop.too_long,
                        .texts_lost = run.texts_lost,
                        .is_record_whole = {},
+                       .are_events_whole = {},
                        .real_time = status.real_time,
                        .refusal = {},
                        .is_valid = why_not_valid(run).empty(),
@@ -111,6 +112,7 @@ PeerStatistics statistics_of(const Run& run)
         all.energy = EnergyReport{status.governor.energy_limited, *limits, status.energy};
     }
     if (run.options.record) all.is_record_whole = run.is_record_whole;
+    if (run.options.events) all.are_events_whole = run.are_events_whole;
     if (status.refusal) all.refusal = describe(*status.refusal);
     return all;
 }
@@ -134,7 +136,8 @@ std::string why_not_valid(const Run& run)
         return fmt::format("the device was at fault {}",
                            faults == 1 ? "once" : fmt::format("{} times", faults));
     }
-    return run.options.record && !run.is_record_whole ? "the record is not complete" : "";
+    if (run.options.record && !run.is_record_whole) return "the record is not complete";
+    return run.options.events && !run.are_events_whole ? "events are missing" : "";
 }
 
 std::string_view describe(wire::ByeReason reason)

@@ -32,6 +32,7 @@ struct Run {
     bool is_record_whole = true;
     std::uint64_t rows_lost = 0;  // rows lost on their way to the record
     std::uint64_t texts_lost = 0; // messages for a person that were not read in time
+    bool are_events_whole = true;
 };
 
 /// The program and its build.
@@ -98,6 +99,9 @@ constexpr auto fields_of(base::Tag<PeerConfiguration>)
         base::computed<C>(
             "send", [](const C& one) { return text_of(one.options->send); }, "The `--send`."),
         base::computed<C>("playout", option<&Options::playout>, "The `--playout`."),
+        base::computed<C>(
+            "clock", [](const C& one) { return text_of(one.options->clock); },
+            "The `--clock`, with its error."),
         base::computed<C>(
             "seed", [](const C& one) { return one.options->seed.value(); }, "The `--seed`."),
         base::member("device", &C::device, "The device in words."),
@@ -366,6 +370,7 @@ struct PeerStatistics {
     std::uint64_t record_rows_lost = 0;
     std::uint64_t texts_lost = 0;
     std::optional<bool> is_record_whole;
+    std::optional<bool> are_events_whole;
     net::RealTime real_time;
     std::optional<std::string_view> refusal;
     bool is_valid = false;
@@ -397,6 +402,8 @@ constexpr auto fields_of(base::Tag<PeerStatistics>)
                      "read."),
         base::member("record_whole", &S::is_record_whole,
                      "Whether the record could be written to its end; null without `--record`."),
+        base::member("events_whole", &S::are_events_whole,
+                     "Whether no event was lost so far; null without `--events`."),
         base::member("real_time", &S::real_time, "What the system granted."),
         base::member("refusal", &S::refusal,
                      "Why these peers cannot play together, in words; null if they can."),

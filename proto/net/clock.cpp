@@ -8,31 +8,49 @@
 #include <ctime>
 #include <fstream>
 #include <sys/random.h>
+#include <sys/timex.h>
 
 namespace hapnet::net {
 
 namespace {
 
-base::Duration used_on(clockid_t clock)
+base::Duration time_of(clockid_t clock)
 {
-    timespec used{};
-    base::ensure(clock_gettime(clock, &used) == 0);
-    return std::chrono::seconds{used.tv_sec} + std::chrono::nanoseconds{used.tv_nsec};
+    timespec now{};
+    base::ensure(clock_gettime(clock, &now) == 0);
+    return std::chrono::seconds{now.tv_sec} + std::chrono::nanoseconds{now.tv_nsec};
 }
+
+/// monotonic_now() minus the time since the machine's start. It is written before there are
+/// threads.
+base::Duration date_of_boot{};
 
 } // namespace
 
-base::TimePoint monotonic_now()
+base::TimePoint monotonic_now() { return base::TimePoint{since_boot() + date_of_boot}; }
+
+base::Duration since_boot() { return time_of(CLOCK_BOOTTIME); }
+
+/// The common date is the last multiple of 2^28 s (8.5 years) since 1970. So the clock of a host
+/// that counts from its start is less than ten years away, which peers accept as an offset.
+void count_from_common_date()
 {
-    timespec now{};
-    base::ensure(clock_gettime(CLOCK_BOOTTIME, &now) == 0);
-    return base::TimePoint{std::chrono::seconds{now.tv_sec} +
-                           std::chrono::nanoseconds{now.tv_nsec}};
+    constexpr base::Duration apart = std::chrono::seconds{1 << 28};
+    const base::Duration since_1970 = since_boot() - (monotonic_minus_real() - date_of_boot);
+    date_of_boot = since_1970 % apart - since_boot();
 }
 
-base::Duration thread_processor_time() { return used_on(CLOCK_THREAD_CPUTIME_ID); }
+std::optional<base::Duration> stated_clock_error()
+{
+    ntptimeval stated{};
+    const int state = ntp_gettime(&stated);
+    if (state < 0 || state == TIME_ERROR) return std::nullopt;
+    return std::chrono::microseconds{stated.maxerror};
+}
 
-base::Duration program_processor_time() { return used_on(CLOCK_PROCESS_CPUTIME_ID); }
+base::Duration thread_processor_time() { return time_of(CLOCK_THREAD_CPUTIME_ID); }
+
+base::Duration program_processor_time() { return time_of(CLOCK_PROCESS_CPUTIME_ID); }
 
 /// An interruption between two readings would shift the stamps, so the closest of a few readings
 /// counts. Usually it is the first.
@@ -67,7 +85,7 @@ std::int64_t wall_clock_nanoseconds()
 
 void sleep_until(base::TimePoint when)
 {
-    const auto since_start = when.time_since_epoch();
+    const auto since_start = when.time_since_epoch() - date_of_boot;
     const auto seconds = std::chrono::floor<std::chrono::seconds>(since_start);
     timespec until{};
     until.tv_sec = seconds.count();

@@ -5,6 +5,7 @@
 #include "proto/base/time.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace hapnet::net {
@@ -13,6 +14,19 @@ namespace hapnet::net {
 /// suspended. So a loop notices the gap, and the motors count as cooled. The project has no other
 /// clock. A shell calls this once per wake-up.
 [[nodiscard]] base::TimePoint monotonic_now();
+
+/// Returns the time since the machine's start, suspended or not.
+[[nodiscard]] base::Duration since_boot();
+
+/// Lets monotonic_now() count from a date that all hosts have in common instead of from the
+/// machine's start. It then agrees with that of other hosts as well as their wall clocks do. It
+/// still never steps: a later step of the wall clock is not followed. Call it once, before the
+/// program reads the clock and starts threads.
+void count_from_common_date();
+
+/// Returns the largest error of the wall clock, as the service that disciplines it (NTP, PTP) has
+/// told the kernel; nullopt if none does.
+[[nodiscard]] std::optional<base::Duration> stated_clock_error();
 
 /// Returns the processor time that the calling thread has used, in user and kernel mode. It makes a
 /// system call.

@@ -58,7 +58,7 @@ private:
     std::array<char, bytes_max> characters_{};
 };
 
-/// Returns a hash of the text that identifies a boot of a machine; 0 for an empty text.
+/// Returns a hash of the text that names a clock, as a boot id does; 0 for an empty text.
 [[nodiscard]] std::uint32_t boot_of(std::string_view boot_id);
 
 /// The properties of a hand and its device as the scene sees them, in SI units; 0: not given.
@@ -85,7 +85,7 @@ struct Hello {
     TaskName task;
     std::uint32_t length_ms = 0; // requested length of the session; 0: not given
     std::uint32_t heard = 0;     // bit i: the sender hears peer i, 1 to 31
-    std::uint32_t boot = 0;      // a hash of the boot id of the sender's machine; 0: unknown
+    std::uint32_t boot = 0;      // a hash of what names the sender's clock; 0: unknown
     HandModel hand;
 
     friend bool operator==(const Hello&, const Hello&) = default;

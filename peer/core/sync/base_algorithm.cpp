@@ -80,7 +80,9 @@ bool BaseAlgorithm::remote_leads(const Situation& situation, const CombinedRemot
     const bool is_stronger =
         remote_n > own_force_n_ || (remote_n == own_force_n_ && situation.yields);
     const auto clock = situation.clock.estimate();
-    const base::Duration round_trip = clock ? 2 * clock->uncertainty : base::Duration{0};
+    // The uncertainty is half the round trip, unless the clocks are one.
+    const base::Duration round_trip =
+        clock ? std::max(2 * clock->uncertainty, clock->round_trip) : base::Duration{0};
     const base::Duration kept = std::max(options_.hysteresis, round_trip);
     if (!lead_ || (lead_->is_remote != is_stronger && situation.now - lead_->since >= kept)) {
         lead_ = Lead{is_stronger, situation.now};

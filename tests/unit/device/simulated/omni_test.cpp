@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <tuple>
 #include <vector>
 
 namespace hapnet::device::omni_test {
@@ -51,6 +52,34 @@ TEST(SimulatedOmni, RestsWhereItIsBeforeItsCue)
         EXPECT_EQ(sample.velocity, base::Velocity{});
         EXPECT_FALSE(sample.gripping);
     }
+}
+
+TEST(SimulatedOmni, StatesAnotherFrictionThanItHasWhereThatIsAsked)
+{
+    SimulatedOmni honest{{.plant = {.friction_n = 0.1}}};
+    EXPECT_EQ(honest.capabilities().friction_n, 0.1);
+    SimulatedOmni omni{{.plant = {.friction_n = 0.1, .stated_friction_n = 0.26}}};
+    EXPECT_EQ(omni.capabilities().friction_n, 0.26);
+}
+
+// A first-order low-pass of 10 Hz reaches 1 - 1/e of a step after 1 / (2 pi 10 Hz) = 15.9 ms. The
+// stiffness of the hand holds it, so that the place where it is slow follows the force.
+TEST(SimulatedOmni, GivesAForceLateWhereItsBandwidthIsLimited)
+{
+    const HandImpedance light{.mass_kg = 0.001, .damping_ns_per_m = 0.5, .stiffness_n_per_m = 300};
+    const auto place_after = [&](std::optional<double> bandwidth_hz, base::Duration time) {
+        SimulatedOmni omni{{.task = Task::t3,
+                            .person = {.hand = light},
+                            .plant = {.friction_n = 0.0, .force_bandwidth_hz = bandwidth_hz}}};
+        std::ignore = omni.read(start);
+        omni.apply(ungoverned({{3.0, 0.0, 0.0}}));
+        return read_for(omni, start, time).hip.x();
+    };
+    const double whole = place_after(std::nullopt, 1s);
+    EXPECT_NEAR(whole, 0.01, 1e-4);
+    EXPECT_NEAR(place_after(10.0, 1s), whole, 1e-4);
+    EXPECT_NEAR(place_after(10.0, 17ms) / whole, 0.63, 0.05);
+    EXPECT_GT(place_after(std::nullopt, 17ms), 0.98 * whole);
 }
 
 TEST(SimulatedOmni, GivesWayToAForceLikeASpringUpToItsFriction)

@@ -43,6 +43,9 @@ TEST(DaemonSessions, RefuseWhatOnlyVirtualTimePlays)
               "the daemons cannot play this: leave 'send' out: this sends every tick");
     EXPECT_EQ(refusal_of("playout=\"adaptive\""),
               "the daemons cannot play this: leave 'playout' out: this has none");
+    EXPECT_EQ(refusal_of("clock=\"synchronised\""),
+              "the daemons cannot play this: leave 'clock' out: here is one clock");
+    EXPECT_NE(refusal_of("device.friction=0.1N").find("leave 'device' out"), std::string::npos);
     const auto limits = load_experiment("fig6a", {}, {}).value();
     EXPECT_NE(daemon_sessions(limits).error().message.find("kind = \"plane\""), std::string::npos);
 }

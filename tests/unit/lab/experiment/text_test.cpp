@@ -43,7 +43,7 @@ void expect_words(const std::string& text, std::initializer_list<std::string_vie
 
 TEST(ExperimentText, EveryBuiltInExperimentReadsBackAsItIsPrinted)
 {
-    ASSERT_EQ(built_in_experiments().size(), 20U);
+    ASSERT_EQ(built_in_experiments().size(), 21U);
     for (const auto& built_in : built_in_experiments()) {
         for (const bool quick : {false, true}) {
             const auto read = parse_experiment(built_in.text, "it", {quick, {}});

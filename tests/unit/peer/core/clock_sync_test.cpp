@@ -387,7 +387,7 @@ TEST(ClockSync, TakesNoShortDisturbanceForAJump)
 TEST(ClockSync, IsOneClockOnOneMachine)
 {
     ClockSync clock;
-    clock.set_same_clock();
+    clock.set_same_clock(0s);
     clock.add(sample(start, 300ms, 100ms, 0s));
     EXPECT_EQ(clock.estimate()->offset, 0s);
     EXPECT_EQ(clock.estimate()->uncertainty, 0s);
@@ -396,7 +396,7 @@ TEST(ClockSync, IsOneClockOnOneMachine)
 TEST(ClockSync, BelievesInOneClockOnlyOnceASampleAllowsIt)
 {
     ClockSync clock;
-    clock.set_same_clock();
+    clock.set_same_clock(0s);
     EXPECT_FALSE(clock.estimate());
     clock.add(sample(start, 10ms, 20ms, 7h)); // the same boot, in another time namespace
     ASSERT_TRUE(clock.estimate());
@@ -408,7 +408,7 @@ TEST(ClockSync, BelievesInOneClockOnlyOnceASampleAllowsIt)
 TEST(ClockSync, EndsTheBeliefInOneClockWhenEightSamplesInARowRuleItOut)
 {
     ClockSync clock;
-    clock.set_same_clock();
+    clock.set_same_clock(0s);
     clock.add(sample(start, 10ms, 10ms, 0s));
     base::TimePoint now = start;
     const auto add = [&](base::Duration ahead) {
@@ -423,6 +423,29 @@ TEST(ClockSync, EndsTheBeliefInOneClockWhenEightSamplesInARowRuleItOut)
     for (int i = 0; i < 300; ++i) add(3s);
     EXPECT_EQ(clock.trusted()->offset, 3s);
     EXPECT_EQ(clock.jumps(), 1U);
+}
+
+TEST(ClockSync, OfSynchronisedHostsIsOneWithinTheirErrorHoweverAsymmetricThePath)
+{
+    ClockSync clock;
+    clock.set_same_clock(4ms);
+    clock.add(sample(start, 10ms, 310ms, 3ms));
+    EXPECT_EQ(clock.estimate()->offset, 0s);
+    EXPECT_EQ(clock.estimate()->uncertainty, 4ms);
+    EXPECT_EQ(clock.estimate()->round_trip, 320ms);
+    clock.reset();
+    clock.set_same_clock(4ms);
+    clock.add(sample(start, 10ms, 10ms, 20ms)); // one of them is not synchronised
+    EXPECT_EQ(clock.estimate()->offset, 20ms);
+}
+
+TEST(ClockSync, OfSynchronisedHostsIsLeftToEchoesWhereTheseAreMoreExact)
+{
+    ClockSync clock;
+    clock.set_same_clock(40ms);
+    clock.add(sample(start, 5ms, 15ms, 30ms));
+    EXPECT_LT(std::abs(ms(clock.estimate()->offset - 30ms)), 5.1);
+    EXPECT_EQ(clock.estimate()->uncertainty, 10ms);
 }
 
 TEST(ClockSync, IsUnknownAgainAfterAReset)

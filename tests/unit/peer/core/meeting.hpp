@@ -19,6 +19,7 @@ struct Path {
     base::Duration delay_max{};
     double loss = 0.0;
     double duplication = 0.0;
+    base::Duration longer_back{}; // from side 1 to side 0
 };
 
 /// Introduces side 0 (id 1) or side 1 (id 2) as its `run`-th run.
@@ -73,7 +74,7 @@ public:
     void restart(std::size_t side)
     {
         Introduction self = introduction(side, runs_++);
-        self.boot = boot;
+        self.clock = boot;
         sides[side].emplace(self);
     }
 
@@ -115,6 +116,7 @@ private:
         const int copies = stream_.uniform(number, 1) < path_.duplication ? 2 : 1;
         for (std::uint32_t copy = 0; copy < static_cast<std::uint32_t>(copies); ++copy) {
             letter.arrives = now + path_.delay_min +
+                             (letter.to == 0 ? path_.longer_back : base::Duration{}) +
                              base::from_seconds(spread * stream_.uniform(number, 2 + copy));
             letters_.push_back(letter);
             await(letter);

@@ -41,6 +41,12 @@ TEST_F(Shown, SaysWhyTheRunIsNotValid)
     for (int i = 0; i < 1000; ++i) status.loop.late.add(100us);
     status.loop.ticks = 991;
     EXPECT_EQ(verdict(), "valid");
+    options.events = "events.jsonl";
+    EXPECT_EQ(why_not_valid({.options = options,
+                             .status = status,
+                             .device = "a device",
+                             .are_events_whole = false}),
+              "events are missing");
     status.loop.missed = 9;
     EXPECT_EQ(verdict(), "0.9 % of the ticks were missed, more than 0.5 %");
     status.loop.missed = 0;

@@ -66,6 +66,27 @@ TEST(Clock, SleepingUntilAPastMomentReturnsAtOnce)
     sleep_until(monotonic_now() - 1ns);
 }
 
+TEST(Clock, CountsFromADateThatHostsHaveInCommonWhereItIsAsked)
+{
+    EXPECT_LT(monotonic_now().time_since_epoch() - since_boot(), 1s);
+    // In a program of its own, as the count stays.
+    EXPECT_EXIT(
+        {
+            count_from_common_date();
+            const auto since_1970 = std::chrono::nanoseconds{wall_clock_nanoseconds()};
+            const auto apart =
+                since_1970 % std::chrono::seconds{1 << 28} - monotonic_now().time_since_epoch();
+            const auto before = monotonic_now();
+            sleep_until(before + 1ms);
+            const bool sleeps = monotonic_now() >= before + 1ms && monotonic_now() < before + 1h;
+            const auto stamps =
+                monotonic_minus_real() + since_1970 - monotonic_now().time_since_epoch();
+            const bool fits_stamps = std::chrono::abs(stamps) < 10s;
+            std::_Exit(std::chrono::abs(apart) < 10s && sleeps && fits_stamps ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "");
+}
+
 TEST(Clock, OneBootHasOneIdentity)
 {
     EXPECT_EQ(boot_id(), boot_id());
