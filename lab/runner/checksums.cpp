@@ -3,6 +3,7 @@
 #include "lab/runner/checksums.hpp"
 
 #include "proto/base/ensure.hpp"
+#include "proto/base/visible.hpp"
 #include "proto/net/text_file.hpp"
 #include "proto/secure/primitives.hpp"
 
@@ -72,6 +73,12 @@ std::string digest_in(const fs::path& folder)
     return is_said ? digest->get<std::string>() : "";
 }
 
+/// True for the name of a file below a folder, without a way out of it.
+bool is_inside(const fs::path& name)
+{
+    return name.is_relative() && std::ranges::find(name, "..") == name.end();
+}
+
 base::Result<void> refuse(const fs::path& file, std::string_view what)
 {
     return base::fail(fmt::format(
@@ -114,8 +121,12 @@ base::Result<void> verify_checksums(const fs::path& folder)
         constexpr std::size_t digits = 2 * checksum_bytes;
         if (line.size() <= digits + 2 || line.substr(digits, 2) != "  ")
             return refuse(path, "has a line that is no checksum with the name of a file");
-        const auto file = folder / line.substr(digits + 2);
-        if (!fs::exists(file))
+        const fs::path name = line.substr(digits + 2);
+        if (!is_inside(name))
+            return refuse(path, fmt::format("names '{}', which is not below its folder",
+                                            base::visible(name.string())));
+        const auto file = folder / name;
+        if (!fs::is_regular_file(file))
             return refuse(file, fmt::format("is missing, and {} names it", checksums_name));
         if (checksum_of_file(file) != line.substr(0, digits))
             return refuse(

@@ -36,7 +36,15 @@ Character first_of(std::string_view text)
     return {code, bytes};
 }
 
-bool is_control(std::uint32_t code) { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
+/// True for a character that moves the cursor or, as Unicode's bidirectional controls do (UAX #9),
+/// changes the order in which a terminal shows the others.
+bool is_control(std::uint32_t code)
+{
+    const bool is_of_direction = code == 0x061c || code == 0x200e || code == 0x200f ||
+                                 (code >= 0x202a && code <= 0x202e) ||
+                                 (code >= 0x2066 && code <= 0x2069);
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || is_of_direction;
+}
 
 std::string visible_but(std::string_view kept, std::string_view text)
 {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace hapnet::lab::runner {
@@ -98,6 +99,13 @@ TEST_F(SummedFolder, WhoseManifestNamesTheDigestOfOtherChecksumsIsRefused)
     expect_complaint("B2SUMS", "is not the one whose digest manifest.json names");
     write("manifest.json", R"({"digest":""})"); // of a run that was stopped
     EXPECT_EQ(complaint(), "");
+    for (const std::string name : {"/dev/zero", "../other", "replay/../../other"}) {
+        write(checksums_name, std::string(64, '0') + "  " + name + "\n");
+        expect_complaint("B2SUMS", "names '" + name + "', which is not below its folder");
+    }
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    write(checksums_name, std::string(64, '0') + "  pipe\n");
+    expect_complaint("pipe", "is missing");
     write(checksums_name, "no sum\n");
     expect_complaint("B2SUMS", "has a line that is no checksum");
 }

@@ -20,6 +20,7 @@ TEST(Visible, LeavesTextOfAnyLanguageAsItIs)
 TEST(Visible, ShowsWhatATerminalWouldObey)
 {
     EXPECT_EQ(visible("\x1b]0;title\x07"), "\\u001B]0;title\\u0007");
+    EXPECT_EQ(visible("a\u202eb\u2066c\u200fd"), "a\\u202Eb\\u2066c\\u200Fd");
     EXPECT_EQ(visible("a\nb\rc\td\x7f"), "a\\u000Ab\\u000Dc\\u0009d\\u007F");
     EXPECT_EQ(visible("\xc2\x9b"
                       "31m"),
