@@ -41,12 +41,13 @@ scene:
      (at 4 ms one in 5000; of unequal masses one in 1000 gains 1 %), and nothing leaves its room,
  10. the ticks that cost most among 20 000 of the random scenes with at most 8 bodies;
 session:
- 11. 1000 sessions from SEED on, half of them with keys, and more until 100 000 000 datagrams have
-     reached a side, over drawn networks and under an attacker who owns the path: forces, energy
-     and counters in each millisecond, with keys what is accepted, and whether the copies agree
-     afterwards; a seed that fails is printed with the command that repeats it;
-     with --peers N (2 to 8; 2-5: all of these in turn) instead 1000 sessions of N peers, half of
-     them with keys, over links that lose up to 30 %, in which one peer after the other is killed
+ 11. 1000 sessions from SEED on, a third of them without keys, with keys of each side's own, and
+     with a shared key as well, and more until 100 000 000 datagrams have reached a side, over
+     drawn networks and under an attacker who owns the path: forces, energy and counters in
+     each millisecond, with keys what is accepted, and whether the copies agree afterwards; a seed
+     that fails is printed with the command that repeats it;
+     with --peers N (2 to 8; 2-5: all of these in turn) instead 1000 sessions of N peers, keyed
+     alike, over links that lose up to 30 %, in which one peer after the other is killed
      and started again, and two halves may have begun apart; and then 1000 of N peers under that
      attacker, who owns all links;
 daemons:
@@ -65,10 +66,13 @@ stop:
      about 6 minutes,
  14. 200 times SIGKILL to a peer at a random moment of a session: by the other peer's record its
      force is zero 300 ms after the last message, about 10 minutes;
+energy:
+ 15. 10 000 random hands, devices and networks, a third with a liar, and 1000 that send less: all
+     hands together never draw more energy than remote-proxy's bound, about 20 minutes;
 study:
- 15. 4000 simulated observers for each of four designs of hapnet-study, from number 1 on: their
+ 16. 4000 simulated observers for each of four designs of hapnet-study, from number 1 on: their
      threshold is inside its stated 95 % interval for 93.5 to 96.5 % of them, about 5 minutes.
-All of them take about 4 N + 75 minutes. --quick: 200 observers, 1 000 000 datagrams, 30 s and 5 s a
+All of them take about 4 N + 95 minutes. --quick: 200 observers, 1 000 000 datagrams, 30 s and 5 s a
 row, 20 000 scenes, 200 sessions, a round of 11 s, 10 signals of each kind, 2000 lines, 50 files of
 a kind, about 9 minutes for all. Run emulator, daemons and stop as root, or where SCHED_FIFO is
 allowed, on a machine that does nothing else: 2 to 6 and 12 to 14 measure time. A round whose
@@ -94,6 +98,8 @@ kills=200
 lines=100000
 files=2000
 observers=4000
+energies=10000
+sendings=1000
 first=0
 peers=
 task=T7
@@ -102,7 +108,7 @@ programs=
 subject=
 while (($# > 0)); do
     case $1 in
-    all | emulator | control | files | scene | session | daemons | stop | study)
+    all | emulator | control | files | scene | session | daemons | stop | energy | study)
         [[ -z $subject ]] || refuse "one subject, not '$subject' and '$1': 'all' runs each of them"
         subject=$1 && shift
         ;;
@@ -144,6 +150,8 @@ if $quick; then
     lines=2000
     files=50
     observers=200
+    energies=200
+    sendings=50
     row_seconds=5
     seconds=${seconds:-30}
 fi
@@ -164,6 +172,7 @@ if [[ $subject == all || $subject == files ]]; then
 fi
 if [[ $subject == all || $subject == scene ]]; then targets+=(soak_scene); fi
 if [[ $subject == all || $subject == session ]]; then targets+=(soak_session); fi
+if [[ $subject == all || $subject == energy ]]; then targets+=(property_peer_core); fi
 if [[ $subject == all || $subject == stop ]]; then
     targets+=(e2e hapnet-peer hapnet-lab hapnet-ctl)
 fi
@@ -205,6 +214,14 @@ run_files() {
         verdict=FAILED
     [[ $verdict == passed ]] || failed+=(files)
     echo "== files: $verdict in $((SECONDS - started)) s"
+}
+
+# run_energy: random hands, devices and networks.
+run_energy() {
+    HAPNET_ENERGY_SESSIONS=$energies run energy property_peer_core \
+        '--gtest_filter=All/RemoteProxyEnergy.*:Seed/RemoteProxyEnergy.*'
+    HAPNET_ENERGY_SESSIONS=$sendings run sending-less property_peer_core \
+        '--gtest_filter=Seed/SendingLess.*'
 }
 
 # run_study: the intervals of hapnet-study.
@@ -254,9 +271,9 @@ run_everyday() {
     echo "== everyday scenes: $verdict in $((SECONDS - started)) s"
 }
 
-# run_sessions: half of them without keys and half with, side by side.
+# run_sessions: a third of them without keys, with own ones, and with a shared one as well.
 run_sessions() {
-    local packets_each=$((session_packets / 2))
+    local packets_each=$((session_packets / 3))
     if [[ -z $peers ]]; then
         play_sessions sessions "under attack" "$packets_each"
         return
@@ -267,16 +284,19 @@ run_sessions() {
 
 # play_sessions NAME KIND DATAGRAMS [OPTION ...]
 play_sessions() {
-    local name=$1 kind=$2 packets_each=$3 half=$((sessions / 2)) started=$SECONDS verdict=passed
+    local name=$1 kind=$2 packets_each=$3 third=$((sessions / 3)) started=$SECONDS verdict=passed
+    local seal other others=()
     shift 3
-    echo "== sessions $kind from seed $first on, $half without keys and $half with"
-    build/release/bin/soak_session keys "$first" "$half" "$packets_each" "$@" \
-        >"build/soak/$name-keys.log" &
-    local other=$!
-    build/release/bin/soak_session none "$first" "$half" "$packets_each" "$@" |
+    echo "== sessions $kind from seed $first on, $third each without keys, with own and shared ones"
+    for seal in own keys; do
+        build/release/bin/soak_session "$seal" "$first" "$third" "$packets_each" "$@" \
+            >"build/soak/$name-$seal.log" &
+        others+=($!)
+    done
+    build/release/bin/soak_session none "$first" "$third" "$packets_each" "$@" |
         tee "build/soak/$name-none.log" || verdict=FAILED
-    wait "$other" || verdict=FAILED
-    cat "build/soak/$name-keys.log"
+    for other in "${others[@]}"; do wait "$other" || verdict=FAILED; done
+    cat "build/soak/$name-own.log" "build/soak/$name-keys.log"
     [[ $verdict == passed ]] || failed+=("$name")
     echo "== sessions $kind: $verdict in $((SECONDS - started)) s"
 }
@@ -334,6 +354,9 @@ if [[ $subject == all || $subject == stop ]]; then
     run kills e2e '--gtest_filter=PeerKill.*'
 fi
 
+if [[ $subject == all || $subject == energy ]]; then
+    run_energy
+fi
 if [[ $subject == all || $subject == study ]]; then
     run_study
 fi

@@ -1,18 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Hapnet authors
 // SPDX-License-Identifier: MIT
 //
-// soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M [--troubled]]: plays the attacked
-// sessions of the seeds FIRST .. FIRST + COUNT - 1, without or with keys, of two peers, N, or N to
-// M in turn, and of more seeds until so many datagrams have reached their sides; with --troubled
-// instead sessions without an attacker, one of whose peers is dead now and then. Prints every seed
-// in which an invariant broke, and at the end what was played. Exits 0 when none did.
+// soak_session none|own|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M [--troubled]]: plays the
+// attacked sessions of the seeds FIRST .. FIRST + COUNT - 1, without keys, with keys of each side's
+// own, or with a shared key as well, of two peers, N, or N to M in turn, and of more seeds until so
+// many datagrams have reached their sides; with --troubled instead sessions without an attacker,
+// one of whose peers is dead now and then. Prints every seed in which an invariant broke, and at
+// the end what was played. Exits 0 when none did.
 #include "tests/support/session/attacked_session.hpp"
 #include "tests/support/session/troubled_group.hpp"
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <spdlog/fmt/fmt.h>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -75,21 +78,28 @@ Kind taken_kind(std::vector<std::string>& arguments)
     return kind;
 }
 
+std::optional<hapnet::test::Seal> seal_named(std::string_view name)
+{
+    using hapnet::test::Seal;
+    for (const Seal seal : {Seal::none, Seal::own, Seal::keys}) {
+        if (name == hapnet::test::name_of(seal)) return seal;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const Kind kind = taken_kind(arguments);
-    const bool keys = !arguments.empty() && arguments[0] == "keys";
-    const bool are_known = arguments.size() >= 3 && arguments.size() <= 4 &&
-                           (keys || arguments[0] == "none") && kind.is_known();
-    if (!are_known) {
-        fmt::print(stderr, "usage: soak_session none|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M "
-                           "[--troubled]]\n");
+    const auto seal = arguments.empty() ? std::nullopt : seal_named(arguments[0]);
+    if (!seal || arguments.size() < 3 || arguments.size() > 4 || !kind.is_known()) {
+        fmt::print(stderr,
+                   "usage: soak_session none|own|keys FIRST COUNT [DATAGRAMS] [--peers N|N-M "
+                   "[--troubled]]\n");
         return 2;
     }
-    const auto seal = keys ? hapnet::test::Seal::keys : hapnet::test::Seal::none;
     const auto number = [&](std::size_t index) {
         return index < arguments.size() ? std::strtoull(arguments[index].c_str(), nullptr, 10) : 0;
     };
@@ -97,7 +107,7 @@ int main(int argc, char** argv)
     Tally tally;
     for (std::uint64_t seed = number(1); tally.played < number(2) || tally.datagrams < number(3);
          ++seed) {
-        const auto session = play(seed, kind, seal);
+        const auto session = play(seed, kind, *seal);
         ++tally.played;
         tally.compared += session.compared ? 1 : 0;
         tally.datagrams += session.datagrams;

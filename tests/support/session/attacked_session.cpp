@@ -171,9 +171,10 @@ Setting drawn_setting(const Asked& asked, Draws& draw, base::Duration heals_at)
     for (auto& player : setting.players) {
         player.phase = draw.up_to(999us);
         player.clock_ahead = draw.up_to(2000s) - 1000s;
-        if (asked.seal == Seal::keys) player.circle = setting.seed;
+        if (is_keyed(asked.seal)) player.circle = setting.seed;
+        player.has_shared_key = asked.seal == Seal::keys;
     }
-    if (asked.seal == Seal::keys) {
+    if (is_keyed(asked.seal)) {
         setting.length = sealed_length;
         // Damage is the attacker's alone: he keeps the book.
         setting.profile.path.up.corrupt = setting.profile.path.down.corrupt = {};
@@ -279,7 +280,7 @@ private:
 Play::Play(const Asked& asked)
     : draw_{base::Seed{asked.seed}, "attacked session"},
       attack_{2s + draw_.up_to(attack_max - 2s)},
-      begins_within_{asked.seal == Seal::keys ? begins_within_sealed : begins_within},
+      begins_within_{is_keyed(asked.seal) ? begins_within_sealed : begins_within},
       world_{drawn_setting(asked, draw_, attack_),
              {.datagrams_max = asked.peers == 2 ? 16'384U : 4096U, .bytes_max = 16U << 20}},
       habits_{drawn_habits(draw_)},
@@ -295,7 +296,7 @@ Play::Play(const Asked& asked)
     const bool is_taken_for_true =
         claims_its_id || crosses || is_damaged() ||
         habits_.forge + habits_.flip + habits_.splice + habits_.storm > 0.0;
-    result_.is_forged = asked.seal == Seal::none && is_taken_for_true;
+    result_.is_forged = !is_keyed(asked.seal) && is_taken_for_true;
 }
 
 bool Play::is_damaged() const

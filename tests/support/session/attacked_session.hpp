@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace hapnet::test {
 
@@ -20,8 +21,14 @@ struct AttackedSession {
     bool is_forged = false;
 };
 
-/// Whether the sides have keys.
-enum class Seal : std::uint8_t { none, keys };
+/// How messages are sealed: not at all, by keys of each side's own, or with a shared key as well.
+enum class Seal : std::uint8_t { none, own, keys };
+[[nodiscard]] constexpr std::string_view name_of(Seal seal)
+{
+    if (seal == Seal::none) return "none";
+    return seal == Seal::own ? "own" : "keys";
+}
+[[nodiscard]] constexpr bool is_keyed(Seal seal) { return seal != Seal::none; }
 
 /// Plays a session whose path, tasks, algorithms, clocks, deaths and attacker are drawn from the
 /// seed, and judges it in each tick: forces finite, limited, and zero once nothing was taken for

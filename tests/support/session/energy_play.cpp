@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <deque>
 #include <glm/geometric.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -69,6 +70,18 @@ device::Operator drawn_person(Draws& draw)
                    .damping_ns_per_m = scaled(draw, 1.0, 16.0),
                    .stiffness_n_per_m = scaled(draw, 50.0, 1000.0)};
     return person;
+}
+
+/// Gives each player a device whose friction is not the one that it states.
+void draw_devices(std::uint64_t seed, EnergyCase& one)
+{
+    Draws draw{base::Seed{seed}, "devices"};
+    for (auto& player : one.setting.players) {
+        player.omni.friction_n = between(draw, 0.0, 0.5);
+        player.omni.stated_friction_n = between(draw, 0.0, 0.5);
+        one.words += fmt::format(", friction {:.2f} N stated as {:.2f} N", player.omni.friction_n,
+                                 *player.omni.stated_friction_n);
+    }
 }
 
 /// One who watches the hands, and stands between the links and the sides.
@@ -173,6 +186,12 @@ private:
 
 } // namespace
 
+std::uint64_t energy_sessions(std::uint64_t usual)
+{
+    const char* const asked = std::getenv("HAPNET_ENERGY_SESSIONS");
+    return asked == nullptr ? usual : std::strtoull(asked, nullptr, 10);
+}
+
 EnergyCase drawn_energy_case(std::uint64_t seed, const peer::Algorithm& algorithm,
                              base::Duration duration)
 {
@@ -194,6 +213,7 @@ EnergyCase drawn_energy_case(std::uint64_t seed, const peer::Algorithm& algorith
         player.person = drawn_person(draw);
         player.phase = draw.up_to(999us);
     }
+    if (seed % 2 == 1) draw_devices(seed, one);
     if (draw.one_in(3)) one.liar = draw.below(static_cast<std::uint32_t>(players));
     one.words = fmt::format("seed {}: {} of {}, {}{}", seed, name_of(setting.task), players,
                             one.words, one.liar ? ", one lies" : "");

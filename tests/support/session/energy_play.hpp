@@ -20,10 +20,15 @@ struct EnergyCase {
 };
 
 /// Two to five hands of 0.1 to 0.6 kg, 1 to 16 N s/m and 50 to 1000 N/m with a task that they can
-/// play, over a path of 0 to 400 ms with jitter, loss or bursts of loss, and copies. One session in
-/// three has a liar: its intention swings by 20 mm, 6 times a second.
+/// play. In every second session their devices have a friction of up to 0.5 N, and state another
+/// one. They play over a path of 0 to 400 ms with jitter, loss or bursts of loss, and copies. One
+/// session in three has a liar: its intention swings by 20 mm, 6 times a second.
 [[nodiscard]] EnergyCase drawn_energy_case(std::uint64_t seed, const peer::Algorithm& algorithm,
                                            base::Duration duration);
+
+/// The number of such cases that a test plays: HAPNET_ENERGY_SESSIONS in the environment, or as
+/// usual.
+[[nodiscard]] std::uint64_t energy_sessions(std::uint64_t usual);
 
 /// What came of it.
 struct EnergyPlayed {

@@ -66,7 +66,8 @@ GroupSetting drawn_group(base::Seed seed, std::size_t peers, Draws& draw, Seal s
     for (auto& player : setting.players) {
         player.phase = draw.up_to(999us);
         player.clock_ahead = draw.up_to(2000s) - 1000s;
-        if (seal == Seal::keys) player.circle = seed;
+        if (is_keyed(seal)) player.circle = seed;
+        player.has_shared_key = seal == Seal::keys;
     }
     const bool comes_late = peers > 2 && draw.one_in(3);
     setting.wait_for = comes_late ? peers - 1 : 0;

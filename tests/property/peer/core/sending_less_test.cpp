@@ -8,7 +8,6 @@
 #include "tests/support/session/energy_play.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 #include <string_view>
@@ -21,13 +20,6 @@ using namespace std::chrono_literals;
 
 constexpr base::Duration length = 15s;
 constexpr std::uint64_t first_seed = 5000; // no other test plays these cases
-
-/// Returns HAPNET_SENDING_SEEDS if it is set, else `usual`.
-std::uint64_t asked_seeds(std::uint64_t usual)
-{
-    const char* const asked = std::getenv("HAPNET_SENDING_SEEDS");
-    return asked == nullptr ? usual : std::strtoull(asked, nullptr, 10);
-}
 
 peer::SendPolicy drawn_policy(std::uint64_t seed)
 {
@@ -96,7 +88,7 @@ TEST_P(SendingLess, KeepsTheEnergyBound)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seed, SendingLess,
-                         testing::Range(std::uint64_t{0}, asked_seeds(seeds(8))));
+                         testing::Range(std::uint64_t{0}, energy_sessions(seeds(8))));
 
 } // namespace
 } // namespace hapnet::test::sending_less_test

@@ -13,8 +13,8 @@ void expect_to_hold(std::uint64_t seed, Seal seal, std::size_t peers = 2)
 {
     const AttackedSession session = play_attacked(seed, seal, peers);
     EXPECT_FALSE(session.complaint)
-        << *session.complaint << "\nrepeat it: build/release/bin/soak_session "
-        << (seal == Seal::keys ? "keys " : "none ") << seed << " 1 --peers " << peers;
+        << *session.complaint << "\nrepeat it: build/release/bin/soak_session " << name_of(seal)
+        << " " << seed << " 1 --peers " << peers;
     EXPECT_GT(session.datagrams, 0U);
 }
 
@@ -26,6 +26,7 @@ class MalloryWithoutKey : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(MalloryWithoutKey, HasNothingAcceptedThatTheOtherSideHasNotSealed)
 {
     expect_to_hold(GetParam(), Seal::keys);
+    expect_to_hold(GetParam(), Seal::own);
 }
 INSTANTIATE_TEST_SUITE_P(Seed, MalloryWithoutKey,
                          testing::Range(std::uint64_t{0}, test::seeds(30)));
