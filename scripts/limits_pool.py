@@ -6,6 +6,9 @@
     scripts/limits_pool.py data DIR     prints that file from what limits_pool.sh left in DIR
     scripts/limits_pool.py agree DIR    says whether the limits in DIR/limits.csv agree with it
 
+The pool's limit is the mean of the limits of its ranges, which are independent. Its 95 % interval
+is Student's, of the spread between them. A limit beyond the search has no interval.
+
 Two limits agree where their difference is within both 95 % intervals: within the root of the sum of
 the squares of their half widths. One in twenty may lie beyond by chance. Exits 0 also then.
 """
@@ -13,12 +16,15 @@ import csv
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 DATA = pathlib.Path(__file__).resolve().parent.parent / "docs" / "results" / "data" / "limits.json"
 KEYS = ("algorithm", "impairment", "task", "p50", "ci_low", "ci_high", "bound", "unit", "seeds",
         "decided_by")
 NUMBERS = ("p50", "ci_low", "ci_high", "seeds")
+# Student's t at 97.5 % by degrees of freedom, from 1 on.
+STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179)
 
 
 def limits_in(path):
@@ -31,6 +37,28 @@ def limits_in(path):
     return rows
 
 
+def pool_of(ranges):
+    """A row for each limit, from its rows in at least two ranges."""
+    limits = {}
+    for one in ranges:
+        for row in one["limits"]:
+            limits.setdefault((row["algorithm"], row["impairment"]), []).append(row)
+    for rows in limits.values():
+        values = [row["p50"] for row in rows]
+        bounded = [row["p50"] for row in rows if row["bound"] == ">"]
+        is_bounded = bool(bounded)
+        degrees = min(len(values) - 1, len(STUDENT))
+        half = STUDENT[degrees - 1] * statistics.stdev(values) / math.sqrt(len(values))
+        mean = statistics.mean(values)
+        if is_bounded:  # The limits of some ranges are above what they state.
+            mean = min(values)
+        yield {**rows[0], "p50": round(mean, 2), "bound": ">" if is_bounded else "=",
+               "ci_low": None if is_bounded else round(mean - half, 2),
+               "ci_high": None if is_bounded else round(mean + half, 2),
+               "seeds": sum(row["seeds"] for row in rows),
+               "decided_by": statistics.mode(row["decided_by"] for row in rows)}
+
+
 def data_of(folder):
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     ranges = []
@@ -38,12 +66,12 @@ def data_of(folder):
         rows = [row for row in limits_in(path) if row["task"] == "worst"]
         ranges.append({"first_seed": int(path.stem.split("-")[1]), "limits": rows})
     host = manifest["host"]
-    return {"about": "Limits of Fig. 6 by fresh seeds: all of them together, and by ranges of 40.",
+    return {"about": "Limits of Fig. 6 by fresh seeds: means over ranges of 40, and the ranges.",
             "commit": manifest["commit"], "date": manifest["start"][:10],
             "machine": f"{host['processors']} processors, {host['machine']}, {host['system']}",
             "command": "scripts/limits_pool.sh",
-            "seeds": {"first": manifest["seeds"][0], "count": len(manifest["seeds"])},
-            "pool": limits_in(folder / "limits.csv"), "ranges": ranges}
+            "seeds": {"first": ranges[0]["first_seed"], "count": 40 * len(ranges)},
+            "pool": list(pool_of(ranges)), "ranges": ranges}
 
 
 def half_width(row):

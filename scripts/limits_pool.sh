@@ -2,16 +2,15 @@
 # SPDX-FileCopyrightText: 2026 The Hapnet authors
 # SPDX-License-Identifier: MIT
 #
-# Plays the pool of fresh seeds by which the limits of Fig. 6 are published.
+# Plays the ranges of fresh seeds by which the limits of Fig. 6 are published.
 set -euo pipefail
 
 usage="usage: scripts/limits_pool.sh --out DIR [--ranges N] [--set KEY=VALUE] [--jobs N]
-Plays hapnet-lab run limits-pool by ranges of 40 seeds, each with a search of its own, and then by
-all of them together: N ranges, 10 when not given. Writes DIR/range-FIRST.csv for each range and the
-results of all to DIR, and prints docs/results/data/limits.json from them. Run again with the same
---out after an interruption: nothing is played twice. Many machines: hapnet-lab plan limits-pool,
-run --shard, merge (docs/use/fleet.md). Exits 0 when done, 1 when stopped, 2 for an unknown
-argument."
+Plays hapnet-lab run limits-pool by ranges of 40 seeds, each with a search of its own: N ranges, 10
+when not given, about 10 minutes of a processor each. Writes DIR/range-FIRST.csv for each, and
+prints docs/results/data/limits.json from them: the mean of the ranges' limits, with its 95 %
+interval. Run again with the same --out after an interruption: nothing is played twice. Exits 0 when
+done, 1 when stopped, 2 for an unknown argument."
 
 refuse() {
     echo "limits_pool: $1"$'\n'"$usage" >&2
@@ -35,7 +34,7 @@ while (($# > 0)); do
     esac
 done
 [[ -n $out ]] || refuse "--out: which directory?"
-[[ $ranges =~ ^[1-9][0-9]*$ ]] || refuse "--ranges: '$ranges' is no number of ranges"
+[[ $ranges =~ ^([2-9]|[1-9][0-9]+)$ ]] || refuse "--ranges: '$ranges' is no number from 2 on"
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/setup.sh >&2
@@ -47,8 +46,10 @@ play() { # SEEDS FIRST_SEED
         --set "first_seed=$2" --out "$out" >&2
 }
 for ((i = 0; i < ranges; ++i)); do
+    range=$out/range-$((first + i * each)).csv
+    [[ -e $range ]] && continue
     play "$each" $((first + i * each))
-    cp "$out/limits.csv" "$out/range-$((first + i * each)).csv"
+    cp "$out/limits.csv" "$range.partial"
+    mv "$range.partial" "$range"
 done
-play $((each * ranges)) "$first"
 python3 scripts/limits_pool.py data "$out"
