@@ -97,6 +97,9 @@ public:
     EnergyPlayed run() &&
     {
         sim::run_until_started(world_);
+        for (const std::size_t side : {0U, 1U}) {
+            if (world_.side(side).last().phase == peer::Phase::running) played_.has_begun = true;
+        }
         const base::TimePoint end = world_.now() + world_.side(0).peer().hands_on();
         while (world_.now() < end) {
             world_.step();

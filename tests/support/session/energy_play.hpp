@@ -32,6 +32,7 @@ struct EnergyCase {
 
 /// What came of it.
 struct EnergyPlayed {
+    bool has_begun = false;   // one of the first two players has met the others within 10 s
     double least_j = 0.0;     // of the sum of all hands' work on their devices
     double withdrawn_j = 0.0; // the most that a hand got out of its device within age_max, summed
     double work_j = 0.0;      // all positive work of all hands: that something happened

@@ -77,6 +77,7 @@ TEST_P(SendingLess, KeepsTheEnergyBound)
 {
     const auto [one, is_heard] = drawn_case(GetParam());
     const EnergyPlayed played = play_for_energy(one);
+    if (!played.has_begun) GTEST_SKIP() << "the players did not meet: " << one.words;
     EXPECT_TRUE(played.is_finite) << one.words;
     if (is_heard) {
         EXPECT_GT(played.work_j, 0.0) << one.words;
