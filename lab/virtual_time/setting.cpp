@@ -76,6 +76,7 @@ Setting in_one_world(Setting setting)
     for (PlayerSetting& player : setting.players) {
         PlayerSetting same;
         same.person = player.person;
+        same.omni = player.omni;
         same.replay = player.replay;
         same.page = player.page;
         same.way = player.way;

@@ -14,9 +14,9 @@
 
 namespace hapnet::peer {
 
-/// How a peer knows the clocks of the others. Echoes cannot tell a longer way there from a longer
-/// way back, so half of a path's asymmetry looks like an offset of the clocks. Hosts whose clocks
-/// follow one source (NTP, PTP) need no estimate.
+/// The source of a peer's knowledge about the others' clocks. Echoes cannot tell a longer way there
+/// from a longer way back, so half of a path's asymmetry looks like an offset of the clocks. Hosts
+/// whose clocks follow one source (NTP, PTP) need no estimate.
 struct ClockPolicy {
     static constexpr base::Duration error_max{std::chrono::seconds{1}};
 

@@ -54,7 +54,7 @@ public:
         const peer::Hand hand = hand_at(0, now);
         sample.hip = hand.hip;
         if (load_ == Load::contact) return sample;
-        // The same place, computed through the arm: the place of its counts, and its velocity.
+        // The arm computes this place: the place of its counts, and its velocity.
         const base::Displacement off =
             device::omni::position_of({counts_now()}) - device::omni::position_of({});
         sample.hip = hand.hip + 1e-6 * off;

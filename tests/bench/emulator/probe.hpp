@@ -17,7 +17,7 @@ namespace hapnet::bench {
 
 constexpr std::size_t payload_bytes = 100;
 
-/// How the sender passes datagrams to the kernel: one by one (in one system call), or merged by
+/// The sender's way to pass datagrams to the kernel: one by one (in one system call), or merged by
 /// UDP_SEGMENT. The receiver takes them in the same way.
 enum class Sending : std::uint8_t { ordinary, offload };
 

@@ -72,7 +72,7 @@ std::vector<Row> bounces(std::span<const Subject> subjects, scene::Turning turni
     return compare(question, readings);
 }
 
-/// How far the upper of two cubes moves in 5 s, m, when it is `ratio` times as heavy.
+/// Returns the way of the upper of two cubes in 5 s, in metres, if it is `ratio` times as heavy.
 double heavy_on_light(const Subject& subject, double ratio)
 {
     scene::Description scene = lone_cube(scene::Turning::free);

@@ -21,7 +21,7 @@ struct AttackedSession {
     bool is_forged = false;
 };
 
-/// How messages are sealed: not at all, by keys of each side's own, or with a shared key as well.
+/// The seal of messages: none, keys of each side's own, or these with a shared key.
 enum class Seal : std::uint8_t { none, own, keys };
 [[nodiscard]] constexpr std::string_view name_of(Seal seal)
 {

@@ -28,7 +28,7 @@ Description cube_in_space()
     return scene;
 }
 
-/// The same cube, with a distant part of the scene that needs this stepper.
+/// Returns a scene with the cube, and a distant part that needs this stepper.
 Description cube_for(StepperKind kind)
 {
     Description scene = cube_in_space();

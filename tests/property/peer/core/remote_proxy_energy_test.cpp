@@ -38,8 +38,8 @@ TEST_P(RemoteProxyEnergy, OfAllHandsTogetherStaysAboveItsBound)
 INSTANTIATE_TEST_SUITE_P(Seed, RemoteProxyEnergy, testing::Range(std::uint64_t{0}, seeds(16)));
 INSTANTIATE_TEST_SUITE_P(All, RemoteProxyEnergy, testing::Range(seeds(16), energy_sessions(48)));
 
-/// The same networks and hands with a cube that turns. Each of two copies or more can store as much
-/// more as the cube gains on a corner.
+/// Random networks and hands as above, with a cube that turns. Each of two copies or more can store
+/// as much more as the cube gains on a corner.
 class TurningCubeEnergy : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(TurningCubeEnergy, OfAllHandsTogetherStaysAboveItsBound)

@@ -9,8 +9,8 @@
 
 namespace hapnet::scene {
 
-/// The same physics by another method: one axis, Runge and Kutta's fourth order in small steps, and
-/// bisection of a step in which anything changes its mode.
+/// A second implementation of the physics: one axis, Runge and Kutta's fourth order in small steps,
+/// and bisection of a step in which anything changes its mode.
 class Reference {
 public:
     struct Hand {

@@ -149,7 +149,7 @@ void expect_agreement(const Group& group)
     EXPECT_LE(end.radians, turned_max_rad);
 }
 
-/// How far bodies have moved, with their reach times their rotation, metres.
+/// Returns the largest motion of a body: its way and its reach times its rotation, in metres.
 double farthest_m(const Peer& peer, const std::vector<scene::BodyState>& before)
 {
     double farthest = 0.0;

@@ -79,7 +79,7 @@ struct Score {
     return score;
 }
 
-/// The same conditions in both directions.
+/// Returns a setting with equal conditions in both directions.
 [[nodiscard]] inline Setting under(device::Task task, const emulator::Conditions& conditions)
 {
     Setting setting{.task = task};

@@ -67,6 +67,20 @@ TEST(OneWorld, IsWhatBaseComesCloseToOnAPerfectNetwork)
     EXPECT_GT(*scores.stiffness_error, 0.0);
 }
 
+TEST(OneWorld, HasTheDevicesOfItsHands)
+{
+    Setting smooth = pressing();
+    for (PlayerSetting& player : smooth.players) player.omni.friction_n = 0.0;
+    const auto own = play(smooth), due = play(in_one_world(smooth));
+    const auto usual = play(in_one_world(pressing()));
+    ASSERT_TRUE(own && due && usual);
+    EXPECT_NE(metrics::metrics_of(*due), metrics::metrics_of(*usual));
+    const auto scores =
+        scores_of(metrics::metrics_of(*own),
+                  make_reference(metrics::metrics_of(*own), metrics::metrics_of(*due)));
+    EXPECT_LT(*scores.stiffness_error, 0.1);
+}
+
 TEST(OneWorld, GivesWayToAStop)
 {
     const std::atomic<bool> stop{true};
