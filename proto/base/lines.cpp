@@ -147,6 +147,12 @@ tl::unexpected<Error> LineReader::fail(std::string_view why) const
     return hapnet::base::fail(fmt::format("line {}: {}", number(), why));
 }
 
+std::size_t line_number_at(std::string_view text, std::size_t place)
+{
+    const auto before = text.substr(0, place);
+    return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
 std::string_view trimmed(std::string_view text)
 {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));

@@ -54,6 +54,10 @@ private:
     std::size_t skipped_empty_ = 0;
 };
 
+/// Returns the number, from 1, of the line that holds the byte at `place`; the last line's for a
+/// place behind the end.
+[[nodiscard]] std::size_t line_number_at(std::string_view text, std::size_t place);
+
 /// Returns the text without the blanks at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 

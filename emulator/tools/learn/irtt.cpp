@@ -116,15 +116,12 @@ Measurement measurement_of(const std::vector<RoundTrip>& trips,
 
 base::Result<Measurement> read_irtt(std::string_view text)
 {
-    const auto line_at = [&](std::size_t place) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(place, text.size()));
-        return 1 + std::count(text.begin(), end, '\n');
-    };
     Value json;
     try {
         json = Value::parse(text);
     } catch (const Value::parse_error& error) {
-        return base::fail(fmt::format("line {}: this is not JSON", line_at(error.byte)));
+        return base::fail(
+            fmt::format("line {}: this is not JSON", base::line_number_at(text, error.byte)));
     } catch (const Value::exception&) {
         return base::fail("line 1: this is not JSON: a number is too large");
     }

@@ -129,9 +129,11 @@ tl::unexpected<base::Error> refusal_of(std::string_view text, const base::Error&
 
 base::Result<Measurement> read_measurement(std::string_view text, const base::Columns& columns)
 {
-    if (text.find('\0') != std::string_view::npos)
-        return base::fail("this is no text and no capture: what belongs here is what ping, irtt or "
-                          "hapnet-emulator probe have written, or a CSV");
+    if (const auto zero = text.find('\0'); zero != std::string_view::npos)
+        return base::fail(
+            fmt::format("line {}: this is no text and no capture: what belongs here is what ping, "
+                        "irtt or hapnet-emulator probe have written, or a CSV",
+                        base::line_number_at(text, zero)));
     const auto first = base::LineReader{text}.next().value_or("");
     if (first.starts_with("{")) return read_irtt(text);
     const bool is_probe = columns.empty() && first.starts_with("sequence,") &&

@@ -29,6 +29,14 @@ TEST(PlainText, IsNotReadOfACompressedFileButSaysHowToUnpackIt)
               "the file is compressed (zip): unpack it first, for example with unzip");
 }
 
+TEST(LineNumberAt, CountsFromOneAndStaysWithinTheText)
+{
+    EXPECT_EQ(line_number_at("", 0), 1U);
+    EXPECT_EQ(line_number_at("a\nb", 1), 1U); // a line end belongs to its line
+    EXPECT_EQ(line_number_at("a\nb", 2), 2U);
+    EXPECT_EQ(line_number_at("a\nb\n", 99), 3U);
+}
+
 TEST(LineReader, CountsTheLinesThatItPassesOver)
 {
     LineReader lines{"\xEF\xBB\xBF# a\n\n one \r\n \t\ntwo"};

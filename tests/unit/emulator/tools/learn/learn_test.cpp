@@ -216,10 +216,10 @@ TEST(ReadMeasurement, NamesWhatItCannotRead)
 {
     using namespace std::string_view_literals;
     EXPECT_EQ(read_measurement("\x7f"
-                               "ELF\0 64 bytes: icmp_seq=1 time=2.1 ms\n"sv)
+                               "ELF\n\0 64 bytes: icmp_seq=1 time=2.1 ms\n"sv)
                   .error()
                   .message,
-              "this is no text and no capture: what belongs here is what ping, irtt or "
+              "line 2: this is no text and no capture: what belongs here is what ping, irtt or "
               "hapnet-emulator probe have written, or a CSV");
     EXPECT_EQ(read_measurement("a,b\n1,2\n").error().message,
               "line 1: no column is named delay_ns, delay_us, delay_ms or delay_s: rename one, or "
