@@ -3,6 +3,7 @@
 #include "lab/cli/options.hpp"
 
 #include "emulator/core/profile/settings.hpp"
+#include "lab/cli/fit_command.hpp"
 #include "lab/cli/import_command.hpp"
 #include "lab/cli/schemas.hpp"
 #include "lab/experiment/criteria_text.hpp"
@@ -42,6 +43,7 @@ constexpr const char* footer =
   hapnet-lab merge sweep
   hapnet-lab compare results/a results/b
   hapnet-lab import hands a.csv b.csv --units mm --rate 120Hz --out people
+  hapnet-lab fit hands people --out fitted
   hapnet-lab report results
   hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
@@ -552,6 +554,8 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     add_report(report_command, report);
     ImportHandsCommand import_hands;
     auto& import_command = add_import(program, import_hands);
+    FitHandsCommand fit_of_hands;
+    auto& fit_command = add_fit(program, fit_of_hands);
     AnalyseCommand analyse;
     auto& analyse_command =
         program.command("analyse", "Compares the records of the peers of a session");
@@ -587,7 +591,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
                      std::tie(report_command, report), std::tie(explain_command, explain),
                      std::tie(run_command, run), std::tie(plan_command, plan),
                      std::tie(merge_command, merge), std::tie(compare_command, compare),
-                     std::tie(import_command, import_hands));
+                     std::tie(import_command, import_hands), std::tie(fit_command, fit_of_hands));
 }
 
 } // namespace hapnet::lab

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/experiment/shard.hpp"
+#include "lab/hands/imitation.hpp"
 #include "lab/hands/import.hpp"
 #include "proto/base/names.hpp"
 #include "proto/base/time.hpp"
@@ -146,9 +147,17 @@ struct ImportHandsCommand {
     std::string out; // folder to which the imported trials are added
 };
 
-using Command = std::variant<AnalyseCommand, ImportHandsCommand, ExportCommand, DemoReportCommand,
-                             ExplainCommand, PlayCommand, RealTimeCommand, ReplayCommand,
-                             ReportCommand, RunCommand, PlanCommand, MergeCommand, CompareCommand>;
+/// `hapnet-lab fit hands DIR --out DIR [options]`
+struct FitHandsCommand {
+    std::string people; // folder of recorded hands
+    hands::ImitationRules rules;
+    std::string out; // folder of the results
+};
+
+using Command =
+    std::variant<AnalyseCommand, ImportHandsCommand, FitHandsCommand, ExportCommand,
+                 DemoReportCommand, ExplainCommand, PlayCommand, RealTimeCommand, ReplayCommand,
+                 ReportCommand, RunCommand, PlanCommand, MergeCommand, CompareCommand>;
 
 /// Reads the command line.
 [[nodiscard]] net::CommandLine<Command> parse_command_line(std::span<char*> words);

@@ -5,6 +5,7 @@
 #include "lab/cli/compare_command.hpp"
 #include "lab/cli/demo_command.hpp"
 #include "lab/cli/files.hpp"
+#include "lab/cli/fit_command.hpp"
 #include "lab/cli/import_command.hpp"
 #include "lab/cli/options.hpp"
 #include "lab/cli/play_command.hpp"
@@ -208,6 +209,14 @@ base::Result<int> run(const RunCommand& command)
 base::Result<int> run(const ImportHandsCommand& command)
 {
     return import_files(command).map([](const std::string& text) {
+        print(text);
+        return 0;
+    });
+}
+
+base::Result<int> run(const FitHandsCommand& command)
+{
+    return fit_hands(command).map([](const std::string& text) {
         print(text);
         return 0;
     });

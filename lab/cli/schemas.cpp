@@ -3,6 +3,7 @@
 #include "lab/cli/schemas.hpp"
 
 #include "lab/cli/play_command.hpp"
+#include "lab/hands/imitation.hpp"
 #include "lab/hands/manifest.hpp"
 #include "lab/records/analysis_report.hpp"
 #include "lab/records/replay.hpp"
@@ -22,6 +23,10 @@ std::vector<cli::DocumentSchema> schemas()
     all.push_back({.name = "explanation", .written = {}, .make = [] {
                        return output::schema_text<scenes::Explanation>(
                            "What hapnet-lab explain --json prints (docs/formats/scene.md)");
+                   }});
+    all.push_back({.name = "fitted-hands", .written = {}, .make = [] {
+                       return output::schema_text<hands::Imitation>(
+                           "fit.json of hands fitted to recorded ones (docs/formats/hands.md)");
                    }});
     all.push_back({.name = "hands", .written = {}, .make = [] {
                        return output::schema_text<hands::Manifest>(

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "lab/hands/import.hpp"
 
-#include "device/replay/hand_trace.hpp"
 #include "lab/hands/motion.hpp"
+#include "proto/base/ensure.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <spdlog/fmt/fmt.h>
 #include <utility>
 
@@ -97,20 +96,6 @@ base::Result<void> check(const Person& person, const Stretch& stretch, const Imp
         gaps.begin_of_longest_s - stretch.zero_s, 1e3 * rules.longest_gap_s));
 }
 
-/// Rounds to whole nanometres, which are short in a file.
-double whole_nm(double metres) { return std::round(metres * 1e9) / 1e9; }
-
-std::string script_text(const Motion& motion)
-{
-    std::string text = "time_s,x_m,y_m,z_m\n";
-    for (std::size_t i = 0; i < motion.size(); ++i) {
-        const glm::dvec3& place = motion[i];
-        text += fmt::format("{},{},{},{}\n", static_cast<double>(i) / motion_rate_hz,
-                            whole_nm(place.x), whole_nm(place.y), whole_nm(place.z));
-    }
-    return text;
-}
-
 /// Returns the name of a file without its folder and ending, as the name of a trial.
 std::string stem_of(std::string_view file)
 {
@@ -164,43 +149,52 @@ base::Result<Imported> import_hands(std::span<const TextFile> files, const Impor
     if (!people) return tl::unexpected{people.error()};
     const auto stretch = stretch_of(*people, rules);
     if (!stretch) return tl::unexpected{stretch.error()};
-    Imported imported;
-    ImportedTrial& trial = imported.trial;
+    ImportedTrial trial;
     trial.subject = rules.subject;
     trial.trial = rules.trial.empty() ? stem_of(files[0].name) : rules.trial;
     if (const auto good = check_names(trial); !good) return tl::unexpected{good.error()};
     std::vector<Motion> motions;
-    std::vector<ImportedHand> hands;
-    for (const Person& person : *people) {
+    for (std::size_t i = 0; i < people->size(); ++i) {
+        const Person& person = (*people)[i];
         if (const auto good = check(person, *stretch, rules); !good)
             return tl::unexpected{good.error()};
         motions.push_back(resampled(person.track, stretch->from_s, stretch->ticks()));
         smooth(motions.back(), rules.smooth_hz);
-        hands.push_back(hand_of(person, *stretch));
-        hands.back().recorded_speed_max_mm_s = 1e3 * speed_max_of(motions.back());
+        (i == 0 ? trial.a : trial.b.emplace()) = hand_of(person, *stretch);
     }
-    const auto fitted = fit(motions, rules.fit);
-    if (!fitted) return base::fail(fmt::format("{}: {}", files[0].name, fitted.error().message));
-    for (std::size_t i = 0; i < hands.size(); ++i) {
-        hands[i].speed_max_mm_s = 1e3 * speed_max_of(motions[i]);
-        hands[i].script =
-            fmt::format("{}-{}-{}.csv", trial.subject, trial.trial, i == 0 ? 'a' : 'b');
-        imported.scripts.push_back({hands[i].script, script_text(motions[i])});
-    }
-    trial.duration_s = static_cast<double>(stretch->ticks() - 1) / motion_rate_hz;
     trial.rate_hz = people->front().track.rate_hz;
     trial.from_s = stretch->from_s - stretch->zero_s;
     trial.smooth_hz = rules.smooth_hz;
     trial.axes = to_text(rules.format.axes);
+    auto imported = fitted_trial(std::move(trial), std::move(motions), rules.fit);
+    if (!imported)
+        return base::fail(fmt::format("{}: {}", files[0].name, imported.error().message));
+    return imported;
+}
+
+base::Result<Imported> fitted_trial(ImportedTrial trial, std::vector<Motion> motions,
+                                    const FitRules& rules)
+{
+    base::ensure(motions.size() == (trial.b ? 2U : 1U));
+    const auto hand = [&](std::size_t i) -> ImportedHand& { return i == 0 ? trial.a : *trial.b; };
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        hand(i).recorded_speed_max_mm_s = 1e3 * speed_max_of(motions[i]);
+    const auto fitted = fit(motions, rules);
+    if (!fitted) return tl::unexpected{fitted.error()};
+    std::vector<TextFile> scripts;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        hand(i).speed_max_mm_s = 1e3 * speed_max_of(motions[i]);
+        hand(i).script = fmt::format("{}-{}-{}.csv", trial.subject, trial.trial, "ab"[i]);
+        scripts.push_back({hand(i).script, script_text(motions[i])});
+    }
+    trial.duration_s = static_cast<double>(motions[0].size() - 1) / motion_rate_hz;
     trial.scale = fitted->scale;
     trial.scale_limited_by = fitted->limited_by;
-    trial.press_mm = 1e3 * rules.fit.press_m;
+    trial.press_mm = 1e3 * rules.press_m;
     trial.meeting_s = fitted->meeting_s;
     trial.touching_share = fitted->touching_share;
-    trial.speed_limit_mm_s = 1e3 * rules.fit.speed_max_m_per_s;
-    trial.a = std::move(hands[0]);
-    if (hands.size() > 1) trial.b = std::move(hands[1]);
-    return imported;
+    trial.speed_limit_mm_s = 1e3 * rules.speed_max_m_per_s;
+    return Imported{std::move(trial), std::move(scripts)};
 }
 
 std::string told(const ImportedTrial& trial)

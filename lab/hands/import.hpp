@@ -42,6 +42,11 @@ struct Imported {
 [[nodiscard]] base::Result<Imported> import_hands(std::span<const TextFile> files,
                                                   const ImportRules& rules);
 
+/// Fits the motions of one or two people into the scene, and completes the description of their
+/// trial, in which `a` and `b` have their sources. The error is that of fit().
+[[nodiscard]] base::Result<Imported> fitted_trial(ImportedTrial trial, std::vector<Motion> motions,
+                                                  const FitRules& rules);
+
 /// Describes an imported trial, in lines for a person.
 [[nodiscard]] std::string told(const ImportedTrial& trial);
 

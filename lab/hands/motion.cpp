@@ -6,7 +6,9 @@
 #include "proto/base/ensure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <spdlog/fmt/fmt.h>
 
 namespace hapnet::lab::hands {
 
@@ -63,6 +65,9 @@ void smooth_axis(Motion& motion, int axis, double cutoff_hertz)
     for (std::size_t i = 0; i < count; ++i) motion[i][axis] = line[pad + i];
 }
 
+/// Rounds to whole nanometres, which are short in a file.
+double whole_nm(double metres) { return std::round(metres * 1e9) / 1e9; }
+
 } // namespace
 
 Gaps gaps_in(const Track& track, double from_s, double to_s)
@@ -111,6 +116,17 @@ double speed_max_of(const Motion& motion)
     for (std::size_t i = 1; i < motion.size(); ++i)
         most_m = std::max(most_m, glm::length(motion[i] - motion[i - 1]));
     return most_m * motion_rate_hz;
+}
+
+std::string script_text(const Motion& motion)
+{
+    std::string text = "time_s,x_m,y_m,z_m\n";
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const glm::dvec3& place = motion[i];
+        text += fmt::format("{},{},{},{}\n", static_cast<double>(i) / motion_rate_hz,
+                            whole_nm(place.x), whole_nm(place.y), whole_nm(place.z));
+    }
+    return text;
 }
 
 } // namespace hapnet::lab::hands

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hapnet::lab::hands {
@@ -44,5 +45,8 @@ void smooth(Motion& motion, double cutoff_hertz);
 
 /// Returns the highest speed between two neighbouring positions, m/s.
 [[nodiscard]] double speed_max_of(const Motion& motion);
+
+/// Returns the motion as CSV for device::parse_hand_trace(), in whole nanometres.
+[[nodiscard]] std::string script_text(const Motion& motion);
 
 } // namespace hapnet::lab::hands

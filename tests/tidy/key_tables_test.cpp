@@ -14,6 +14,7 @@
 #include "emulator/tools/probe_statistics.hpp"
 #include "emulator/tools/verify/verify.hpp"
 #include "lab/experiment/fields.hpp"
+#include "lab/hands/imitation.hpp"
 #include "lab/hands/manifest.hpp"
 #include "lab/metrics/criteria.hpp"
 #include "lab/results/requirements.hpp"
@@ -162,6 +163,11 @@ std::vector<KeyTable> tables_of_outputs()
         {"hands", output::key_table<lab::hands::Manifest>()},
         {"hands-trial", output::key_table<lab::hands::ImportedTrial>()},
         {"hands-hand", output::key_table<lab::hands::ImportedHand>()},
+        {"fitted-hands", output::key_table<lab::hands::Imitation>()},
+        {"fitted-subject", output::key_table<lab::hands::SubjectModels>()},
+        {"fitted-model", output::key_table<lab::hands::MotionModel>()},
+        {"fitted-figure", output::key_table<lab::hands::ComparedFigure>()},
+        {"motion-figures", output::key_table<lab::hands::MotionFigures>()},
         {"requirements", output::key_table<lab::results::Requirement>()},
         {"network-classes", output::key_table<lab::results::NetworkClass>()},
     };
@@ -265,7 +271,8 @@ const std::set<std::string>& with_table()
         "PlaneDescription", "BodyDescription", "PartDescription", "Density", "Array", "Criteria",
         "Experiment", "Table1", "Limits", "Trajectories", "ImpairmentGrid", "Calibration", "Claims",
         "TickRow", "BodyRow", "MessageRow", "SessionRow", "Manifest", "ImportedTrial",
-        "ImportedHand",
+        "ImportedHand", "Imitation", "SubjectModels", "MotionModel", "ComparedFigure",
+        "MotionFigures",
         // that programs print
         "RunStatistics", "DirectionReport", "ChangeReport", "StreamShape", "StretchReport",
         "ClientReport", "LinkReport", "InterfaceReport", "CheckReport", "PredictionReport",

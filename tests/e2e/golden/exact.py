@@ -136,7 +136,10 @@ def groups(repository):
         "lab-hands": [
             Step(f"{lab} import hands hands.csv --columns ax,ay,az,bx,by,bz --units mm "
                  "--rate 100Hz --subject 01 --trial 1 --out people", files=["people/01-1-a.csv"]),
-            Step(imported)],
+            Step(imported),
+            Step(f"{lab} import hands hands.csv --columns ax,ay,az,bx,by,bz --units mm "
+                 "--rate 100Hz --subject 01 --trial 2 --out people"),
+            Step(f"{lab} fit hands people --out fitted", files=["fitted"])],
         "lab-records": [
             Step(f"{lab} run turns.toml --out turns", files=["turns"]),
             *(step for records in (RECORDS, TURNING) for step in (

@@ -10,6 +10,7 @@ import csv
 import json
 import math
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -213,9 +214,64 @@ def one_line():
         assert words in refused, refused
 
 
+def fits():
+    """Simulated hands that move as the recorded ones, judged by trials that no fit saw."""
+    out = FOLDER / "fitted"
+    said = lab("fit", "hands", FOLDER / "people", "--trials", 4, "--out", out)
+    assert f"fitted to {PAIRS} trials of {PAIRS} subjects; judged by {PAIRS} others" in said, said
+    fit = json.loads((out / "fit.json").read_text(encoding="utf-8"))
+    trials = {name: json.loads((out / name / "manifest.json").read_text(encoding="utf-8"))["trials"]
+              for name in ("seen", "unseen", "simulated")}
+    assert [trial["trial"] for trial in trials["unseen"]] == ["2"] * PAIRS
+    assert len(trials["simulated"]) == 4 * PAIRS
+    assert all(trial["a"]["source"] == "fit.json" for trial in trials["simulated"])
+    for name, of_name in trials.items():
+        check_figures(fit, name, [own_figures(out / name, trial) for trial in of_name])
+    # The simulated hands are as fast as the people, and neither leaves the workspace.
+    for motion in ("middle", "apart"):
+        row = compared(fit, motion, "speed_mm_s")
+        assert abs(row["simulated"] - row["unseen"]) < 0.35 * row["unseen"], row
+    lab("run", out / "judge.toml", "--out", FOLDER / "judge")
+    table = rows(FOLDER / "judge/rankings.csv")
+    assert {row["value"] for row in table} == {"unseen/", "seen/", "simulated/"}, table
+    again = lab("fit", "hands", FOLDER / "people", "--trials", 4, "--out", FOLDER / "again")
+    assert again.replace("again", "fitted") == said
+    assert (FOLDER / "again/fit.json").read_bytes() == (out / "fit.json").read_bytes()
+    refused = lab("fit", "hands", FOLDER / "people", "--unseen", "77", "--out", out, code=2)
+    assert "the folder has no such subject: its subjects are 01, 02" in refused, refused
+    refused = lab("fit", "hands", FOLDER, "--out", out, code=2)
+    assert "manifest.json" in refused, refused
+
+
+def compared(fit, motion, figure):
+    return next(row for row in fit["figures"] if (row["motion"], row["figure"]) == (motion, figure))
+
+
+def own_figures(folder, trial):
+    """Speeds and spreads along x of a trial's motions, from its scripts."""
+    a, b = ([tuple(1e3 * float(row[axis]) for axis in ("x_m", "y_m", "z_m"))
+             for row in rows(folder / trial[side]["script"])][::20] for side in ("a", "b"))
+    motions = {"middle": [[(x + y) / 2 for x, y in zip(*places)] for places in zip(a, b)],
+               "apart": [[x - y for x, y in zip(*places)] for places in zip(a, b)]}
+    figures = {}
+    for name, places in motions.items():
+        speeds = [50 * math.dist(*pair) for pair in zip(places, places[1:])]
+        figures[name, "speed_mm_s"] = math.sqrt(statistics.fmean(s * s for s in speeds))
+        figures[name, "spread_x_mm"] = statistics.pstdev(place[0] for place in places)
+    return figures
+
+
+def check_figures(fit, kind, trials):
+    for motion, figure in trials[0]:
+        meant = statistics.fmean(trial[motion, figure] for trial in trials)
+        said = compared(fit, motion, figure)[kind]
+        assert abs(said - meant) <= 1e-3 * meant + 1e-3, (kind, motion, figure, said, meant)
+
+
 PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
 with tempfile.TemporaryDirectory() as made:
     FOLDER = pathlib.Path(made)
     imports()
+    fits()
     plays()
     one_line()
