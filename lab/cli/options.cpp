@@ -47,7 +47,6 @@ constexpr const char* footer =
   hapnet-lab report results
   hapnet-lab report a.rec b.rec
   hapnet-lab analyse a.rec b.rec --json
-  hapnet-lab analyse 1.rec 2.rec 3.rec
   hapnet-lab export a.rec > a.csv
   hapnet-lab export a.rec b.rec > both.csv
   hapnet-lab export a.rec b.rec --mcap > both.mcap
@@ -173,8 +172,9 @@ void add_report(cli::Command& command, ReportCommand& report)
                    cli::into(report.out));
 }
 
-void add_replay(cli::Command& command, ReplayCommand& replay)
+cli::Command& add_replay(cli::Command& program, ReplayCommand& replay)
 {
+    auto& command = program.command("replay", "Replays a recorded peer in virtual time");
     command.describe("Replays one recorded peer in virtual time, with the messages it received and "
                      "the hand it had, and compares the forces. A record that was cut off is "
                      "replayed as far as it goes, with "
@@ -189,6 +189,7 @@ void add_replay(cli::Command& command, ReplayCommand& replay)
     command.flag("--json", "Print one JSON object instead of lines", replay.json);
     command.flag("--csv", "Print the recorded and replayed forces of every tick", replay.csv);
     command.add_exit_codes(replay_exit_codes);
+    return command;
 }
 
 cli::Command& add_real_time(cli::Command& program, RealTimeCommand& real_time)
@@ -437,8 +438,9 @@ void add_run(cli::Command& command, RunCommand& run)
     add_jobs(command, run.jobs);
 }
 
-void add_plan(cli::Command& command, PlanCommand& plan)
+cli::Command& add_plan(cli::Command& program, PlanCommand& plan)
 {
+    auto& command = program.command("plan", "Writes down an experiment to be run in shards");
     command.describe("Writes down an experiment with all files that it needs, to be run in shards, "
                      "on as many machines as there are, and merged.");
     command.add_footer("Examples:\n"
@@ -449,10 +451,12 @@ void add_plan(cli::Command& command, PlanCommand& plan)
     add_experiment(command, plan.run, "A file (docs/use/experiments.md)");
     command.option("--out", "DIR", "The folder for plan.json", cli::into(plan.run.out))
         .required("sweep");
+    return command;
 }
 
-void add_merge(cli::Command& command, MergeCommand& merge)
+cli::Command& add_merge(cli::Command& program, MergeCommand& merge)
 {
+    auto& command = program.command("merge", "Writes the results of a plan's shards");
     command.describe("Writes the results of a plan from the sessions of its shards: the same bytes "
                      "as one run would, and a digest of them. Exit code 1: sessions are missing.");
     command.positional("DIR", "The folder that hapnet-lab plan wrote", cli::onto(merge.folders))
@@ -462,10 +466,12 @@ void add_merge(cli::Command& command, MergeCommand& merge)
                     cli::onto(merge.folders))
         .repeated();
     add_jobs(command, merge.jobs);
+    return command;
 }
 
-void add_compare(cli::Command& command, CompareCommand& compare)
+cli::Command& add_compare(cli::Command& program, CompareCommand& compare)
 {
+    auto& command = program.command("compare", "Compares two folders of results");
     command.describe(
         "Compares two folders of results session by session: the sessions that both have, by the "
         "same algorithm, in the same task, scene, network and with the same seed. Of what each is "
@@ -478,6 +484,7 @@ void add_compare(cli::Command& command, CompareCommand& compare)
         .required("results/before results/after");
     command.flag("--json", "Print one JSON object instead of a table", compare.json);
     command.flag("--csv", "Print the table as CSV", compare.csv);
+    return command;
 }
 
 /// Returns the names that command lines and experiments can use, a line for each kind of them.
@@ -540,14 +547,11 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto& run_command = program.command("run", "Runs an experiment in virtual time");
     add_run(run_command, run);
     PlanCommand plan;
-    auto& plan_command = program.command("plan", "Writes down an experiment to be run in shards");
-    add_plan(plan_command, plan);
+    auto& plan_command = add_plan(program, plan);
     MergeCommand merge;
-    auto& merge_command = program.command("merge", "Writes the results of a plan's shards");
-    add_merge(merge_command, merge);
+    auto& merge_command = add_merge(program, merge);
     CompareCommand compare;
-    auto& compare_command = program.command("compare", "Compares two folders of results");
-    add_compare(compare_command, compare);
+    auto& compare_command = add_compare(program, compare);
     ReportCommand report;
     auto& report_command =
         program.command("report", "Writes a page with the results of a folder or session");
@@ -565,8 +569,7 @@ net::CommandLine<Command> parse_command_line(std::span<char*> words)
     auto& export_command = program.command("export", "Prints the rows of a record as CSV");
     add_export(export_command, exported, as_csv);
     ReplayCommand replay;
-    auto& replay_command = program.command("replay", "Replays a recorded peer in virtual time");
-    add_replay(replay_command, replay);
+    auto& replay_command = add_replay(program, replay);
     PlayCommand play;
     auto& play_command = program.command("play", "Plays one session in virtual time");
     add_play(play_command, play);

@@ -312,8 +312,8 @@ base::Result<Imitated> imitate(const Manifest& manifest, const Population& popul
 
 std::string told(const Imitation& imitation)
 {
-    auto text = fmt::format("fitted to {}; judged by {} others\n", trials_of_subjects(imitation),
-                            imitation.unseen_trials);
+    auto text = fmt::format("fitted to {}; judged by {} other{}\n", trials_of_subjects(imitation),
+                            imitation.unseen_trials, imitation.unseen_trials == 1 ? "" : "s");
     text += fmt::format("{:24}{:>10}{:>10}{:>21}{:>11}\n", "", "seen", "unseen",
                         "(least to largest)", "simulated");
     std::size_t inside = 0;

@@ -243,6 +243,30 @@ def fits():
     assert "manifest.json" in refused, refused
 
 
+def compares_kinds():
+    """The table of what recorded hands change."""
+    script = pathlib.Path(__file__).resolve().parents[3] / "scripts/recorded_hands.py"
+    done = subprocess.run([script, FOLDER / "people", "--quick", "--programs", PROGRAMS, "--out",
+                           FOLDER / "kinds"], capture_output=True, text=True, timeout=600,
+                          check=False)
+    assert done.returncode == 0, done.stderr
+    table = json.loads(done.stdout)
+    assert "6 seen and 6 unseen trials of 6 subjects, 24 fitted ones" in table["about"]
+    kinds = ["nominal", "unseen trials", "fitted hands", "seen trials"]
+    order = [row for row in table["rows"] if row["case"] == "100 ms, order"]
+    assert [row["subject"] for row in order] == kinds and order[1]["value"] == 1, order
+    for case in ("100 ms, base", "claim, 100 ms", "any network, remote-proxy"):
+        assert {row["subject"] for row in table["rows"] if row["case"] == case} == set(kinds), case
+    unseen = rows(FOLDER / "judge/rankings.csv")
+    for row in table["rows"]:
+        if row["subject"] != "unseen trials" or not row["metric"].startswith("mean distance"):
+            continue
+        algorithm = row["case"].removeprefix("100 ms, ")
+        meant, = (float(one["mean_mm"]) for one in unseen
+                  if (one["value"], one["task"], one["algorithm"]) == ("unseen/", "T3", algorithm))
+        assert abs(row["value"] - meant) < 2e-3, (row, meant)
+
+
 def compared(fit, motion, figure):
     return next(row for row in fit["figures"] if (row["motion"], row["figure"]) == (motion, figure))
 
@@ -273,5 +297,6 @@ with tempfile.TemporaryDirectory() as made:
     FOLDER = pathlib.Path(made)
     imports()
     fits()
+    compares_kinds()
     plays()
     one_line()
