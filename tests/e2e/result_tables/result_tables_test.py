@@ -10,6 +10,7 @@ import contextlib
 import io
 import json
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -143,6 +144,49 @@ class Pages(unittest.TestCase):
         self.page.write_text("<!-- data: a.json -->\n", encoding="utf-8")
         self.assertIn("a table has no end", self.refusal())
         self.assertEqual(run()[0], 2)
+
+
+class RowsOfATableOfResults(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+        columns = [{"key": key} for key in ("algorithm", "task", "tier", "delay_ms")]
+        table = {"columns": columns, "rows": [["base", "worst", "good", 50.5],
+                                              ["base", "T1", "good", 70], ["sep", "worst", "good",
+                                                                           None]]}
+        (self.path / "results.json").write_text(json.dumps({"tables": {"needs": table}}),
+                                                encoding="utf-8")
+        (self.path / "manifest.json").write_text(json.dumps(
+            {"commit": "abc", "start": "2026-01-02T03:04:05Z", "command": "run x",
+             "host": {"processors": 3}}), encoding="utf-8")
+
+    def rows(self, *words):
+        return subprocess.run([REPOSITORY / "scripts/data_rows.py", self.path, *words],
+                              capture_output=True, text=True, check=False)
+
+    def test_become_a_data_file_that_can_be_printed(self):
+        done = self.rows("needs", "--case", "tier,task", "--subject", "algorithm", "--metrics",
+                         "delay_ms", "--where", "task=worst", "--command", "hapnet-lab run x")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        data = json.loads(done.stdout)
+        self.assertEqual([(one["case"], one["subject"], one["value"]) for one in data["rows"]],
+                         [("good, worst", "base", 50.5)])
+        self.assertEqual((data["date"], data["machine"], data["command"]),
+                         ("2026-01-02", "3 processors", "hapnet-lab run x"))
+        file = self.path / "needs.json"
+        file.write_text(done.stdout, encoding="utf-8")
+        code, table, _ = run("--print", file)
+        self.assertEqual(code, 0)
+        self.assertIn("| good, worst | delay_ms | 50.5 |", table)
+
+    def test_say_which_key_or_table_is_missing(self):
+        for words, said in ((("need",), "no table need: it has needs"),
+                            (("needs",), "no key seeds: it has algorithm, task, tier, delay_ms")):
+            done = self.rows(*words, "--case", "seeds", "--subject", "algorithm", "--metrics",
+                             "task")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
 
 
 if __name__ == "__main__":
