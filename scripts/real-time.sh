@@ -120,6 +120,9 @@ play_cell() {
     local folder=$1 peers=$2 id
     local network=(--profile "$folder/profile.toml" --seed "$5")
     local play=(--task "$3" --algorithm "$folder/algorithm.toml" --scene "$folder/scene.toml")
+    local more
+    read -ra more <"$folder/peer.words"
+    play+=("${more[@]}")
     hands_seed=$5
     for ((id = 1; id <= peers; id++)); do
         operators[$id]=$folder/$( ((id % 2)) && echo left || echo right).toml

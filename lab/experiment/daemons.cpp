@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <spdlog/fmt/fmt.h>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -32,8 +33,6 @@ base::Result<void> check(const Experiment& experiment)
                  "kind = \"plane\""},
         Obstacle{experiment.tick != 1ms, "their tick is 1 ms; leave 'tick' out"},
         Obstacle{experiment.duration % 1s != 0s, "'duration' has to be whole seconds"},
-        Obstacle{experiment.send != peer::SendPolicy{}, "leave 'send' out: this sends every tick"},
-        Obstacle{experiment.playout != peer::Playout::none, "leave 'playout' out: this has none"},
         Obstacle{experiment.clock != peer::ClockPolicy{}, "leave 'clock' out: here is one clock"},
         Obstacle{experiment.device != device::OmniPlant{},
                  "leave 'device' out: the daemons' devices are those of the data sheet"},
@@ -74,7 +73,10 @@ std::vector<ProgramFile> program_files(const virtual_time::Setting& setting)
             {"left.toml", device::print_operator(players[0].person)},
             {"right.toml", device::print_operator(players[1].person)},
             {"scene.toml", scene::to_text(setting.scene)},
-            {"profile.toml", emulator::to_text(setting.profile)}};
+            {"profile.toml", emulator::to_text(setting.profile)},
+            {"peer.words",
+             fmt::format("--send {} --playout {}\n", text_of(players[0].send),
+                         base::name_of(players[0].playout))}};
 }
 
 } // namespace hapnet::lab::experiment

@@ -18,7 +18,9 @@ namespace hapnet::lab::experiment {
 
 /// A file that describes a session to the programs.
 struct ProgramFile {
-    std::string name; // algorithm.toml, left.toml, right.toml, scene.toml, profile.toml
+    /// algorithm.toml, left.toml, right.toml, scene.toml, profile.toml, or peer.words: more options
+    /// of the peers.
+    std::string name;
     std::string text;
 };
 [[nodiscard]] std::vector<ProgramFile> program_files(const virtual_time::Setting& setting);

@@ -39,10 +39,6 @@ TEST(DaemonSessions, RefuseWhatOnlyVirtualTimePlays)
               "the daemons cannot play this: 'duration' has to be whole seconds");
     EXPECT_EQ(refusal_of("keyed=true"),
               "the daemons cannot play this: leave 'keyed' out: this plays without keys");
-    EXPECT_EQ(refusal_of("send=\"every:10\""),
-              "the daemons cannot play this: leave 'send' out: this sends every tick");
-    EXPECT_EQ(refusal_of("playout=\"adaptive\""),
-              "the daemons cannot play this: leave 'playout' out: this has none");
     EXPECT_EQ(refusal_of("clock=\"synchronised\""),
               "the daemons cannot play this: leave 'clock' out: here is one clock");
     EXPECT_NE(refusal_of("device.friction=0.1N").find("leave 'device' out"), std::string::npos);
@@ -50,11 +46,23 @@ TEST(DaemonSessions, RefuseWhatOnlyVirtualTimePlays)
     EXPECT_NE(daemon_sessions(limits).error().message.find("kind = \"plane\""), std::string::npos);
 }
 
+TEST(ProgramFiles, SayHowPeersSendAndPlayMessages)
+{
+    for (const auto& [setting, words] :
+         {std::pair{"send=\"every:6\"", "--send every:6 --playout none\n"},
+          std::pair{"send=\"deadband:8%,100ms\"", "--send deadband:8%,100ms --playout none\n"},
+          std::pair{"playout=\"adaptive\"", "--send every:1 --playout adaptive\n"}}) {
+        const auto sessions = daemon_sessions(table1(setting)).value();
+        EXPECT_EQ(program_files(sessions.front().spec.setting)[5].text, words);
+    }
+}
+
 TEST(ProgramFiles, SayWhatTheSessionIs)
 {
     const auto sessions = daemon_sessions(table1("hands=[\"firm\", \"relaxed\"]")).value();
     const auto files = program_files(sessions.front().spec.setting);
-    ASSERT_EQ(files.size(), 5U);
+    ASSERT_EQ(files.size(), 6U);
+    EXPECT_EQ(files[5].text, "--send every:1 --playout none\n");
     EXPECT_EQ(device::parse_operator(files[1].text, "left").value().name, "firm");
     EXPECT_EQ(device::parse_operator(files[2].text, "right").value().name, "relaxed");
     EXPECT_NE(files[4].text.find("160ms"), std::string::npos);
