@@ -30,7 +30,9 @@ def read(path):
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        refuse(f"{path}: {error.strerror}: name a folder of results")
+        return refuse(f"{path}: {error.strerror}: name a folder of results")
+    except ValueError as error:
+        return refuse(f"{path}: {error}: run the experiment again")
 
 
 def records(folder, name):
@@ -53,7 +55,7 @@ def main():
     parser.add_argument("--command")
     options = parser.parse_args()
     keys, table = records(options.folder, options.table)
-    wanted = dict(words.split("=", 1) for words in options.where)
+    wanted = dict(words.partition("=")[::2] for words in options.where)
     case, metrics = options.case.split(","), options.metrics.split(",")
     for key in (*case, options.subject, *metrics, *wanted):
         if key not in keys:
@@ -63,6 +65,8 @@ def main():
              "ratio": None, "target": None, "direction": "max", "met": None}
             for one in table if all(str(one[key]) == value for key, value in wanted.items())
             for metric in metrics if one[metric] is not None]
+    if not rows:
+        refuse(f"no row of {options.table} is as --where says")
     manifest = read(options.folder / "manifest.json")
     print(json.dumps({"commit": manifest["commit"], "date": manifest["start"][:10],
                       "machine": f"{manifest['host']['processors']} processors",

@@ -11,15 +11,17 @@ nominal hand, with the trials that no fit saw, with the fitted hands, and with t
 fit saw. The last show how much people's own results differ. The file is one of
 scripts/result_tables.py. Results stay in --out (default build/recorded-hands), so that a second run
 plays only what is missing. Twelve trials of 5 s take seven minutes on two processors; --quick, with
-one delay, two networks and four fitted trials, twenty seconds.
+one delay, two networks and four fitted trials, half a minute.
 """
 import argparse
 import csv
 import datetime
 import itertools
 import json
+import math
 import os
 import pathlib
+import statistics
 import subprocess
 import sys
 
@@ -27,21 +29,21 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ALGORITHMS = ("base", "sep", "dead-reckoning", "remote-proxy")
 DELAYS_MS = (50, 100, 160, 200, 300)
 FITTED_TRIALS, QUICK_TRIALS, NOMINAL_SEEDS = 30, 4, 20
-# Claims of docs/results/beat.md that T3 can judge: delay, metric, factor, target.
-CLAIMS = ((160, "mean distance, mm", "mean_mm", 1, 2.5),
-          (200, "mean distance, mm", "mean_mm", 1, 3.5),
-          (300, "mean distance, mm", "mean_mm", 1, 8.0),
-          (100, "contact lost added, %", "contact_lost", 100, 8.0),
-          (200, "contact lost added, %", "contact_lost", 100, 12.0))
+# Claims of docs/results/beat.md that T3 can judge, by delay: targets of the mean distance, and of
+# the contact lost in nine of ten sessions.
+MEAN_CLAIMS = {160: 2.5, 200: 3.5, 300: 8.0}
+LOST_CLAIMS = {100: 8.0, 200: 12.0}
 
 
 def lab(options, *words):
-    subprocess.run([options.programs / "hapnet-lab", *map(str, words)], check=True,
-                   stdout=sys.stderr)
+    done = subprocess.run([options.programs / "hapnet-lab", *map(str, words)], check=False,
+                          stdout=sys.stderr)
+    if done.returncode != 0:
+        sys.exit(done.returncode)  # it has said why
 
 
 def play(options, experiment, kind, *settings):
-    """Plays an experiment with one kind of hands; the rows of its first table of that name."""
+    """Plays an experiment with one kind of hands; the rows of its sessions of T3."""
     if experiment == "any-network" and options.quick:
         settings = (*settings, "latin_hypercube.points=2")
     if kind == "nominal":
@@ -52,9 +54,27 @@ def play(options, experiment, kind, *settings):
     out = options.out / "-".join([experiment, kind.replace(" ", "-"), *settings]).replace("=", "-")
     lab(options, "run", experiment, "--out", out,
         *(word for setting in words for word in ("--set", setting)))
-    name = "qos_by_point.csv" if experiment == "any-network" else "tasks.csv"
+    options.commit = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["commit"]
+    name = "sessions_by_point.csv" if experiment == "any-network" else "sessions.csv"
     with open(out / name, newline="", encoding="utf-8") as file:
         return [one for one in csv.DictReader(file) if one["task"] == "T3"]
+
+
+def mean_between(sessions):
+    """The mean distance: each subject counts once."""
+    subjects = {}
+    for one in sessions:
+        subjects.setdefault(one.get("subject"), []).append(float(one["mean_mm"]))
+    return statistics.fmean(statistics.fmean(values) for values in subjects.values())
+
+
+def usable(sessions):
+    return 100 * statistics.fmean(one["tier"] != "unusable" for one in sessions)
+
+
+def nine_of_ten(values):
+    """The value that nine of ten do not exceed, by the nearest rank."""
+    return sorted(values)[math.ceil(0.9 * len(values)) - 1]
 
 
 def row(case, metric, kind, value, target=None):
@@ -73,18 +93,22 @@ def tau(means, others):
 
 def delay_rows(played, delay_ms):
     rows = []
-    means = {kind: {one["algorithm"]: float(one["mean_mm"]) for one in table}
-             for kind, table in played.items()}
+    means = {kind: {} for kind in played}
     for algorithm, (kind, table) in itertools.product(ALGORITHMS, played.items()):
-        one, = (one for one in table if one["algorithm"] == algorithm)
+        sessions = [one for one in table if one["algorithm"] == algorithm]
+        means[kind][algorithm] = mean = mean_between(sessions)
         case = f"{delay_ms} ms, {algorithm}"
-        rows.append(row(case, "mean distance, mm", kind, float(one["mean_mm"])))
-        usable = float(one["usable_seeds"]) / float(one["seeds"])
-        rows.append(row(case, "usable, %", kind, 100 * usable))
-        for when, words, column, factor, target in CLAIMS:
-            if (when, algorithm) == (delay_ms, "remote-proxy"):
-                rows.append(row(f"claim, {delay_ms} ms", words, kind, factor * float(one[column]),
-                                target))
+        rows.append(row(case, "mean distance, mm", kind, mean))
+        rows.append(row(case, "usable, %", kind, usable(sessions)))
+        if algorithm != "remote-proxy":
+            continue
+        if delay_ms in MEAN_CLAIMS:
+            rows.append(row(f"claim, {delay_ms} ms", "mean distance, mm", kind, mean,
+                            MEAN_CLAIMS[delay_ms]))
+        if delay_ms in LOST_CLAIMS:
+            lost = nine_of_ten([100 * float(one["contact_lost"]) for one in sessions])
+            rows.append(row(f"claim, {delay_ms} ms", "contact lost added, %, nine of ten", kind,
+                            lost, LOST_CLAIMS[delay_ms]))
     for kind, of_kind in means.items():
         rows.append(row(f"{delay_ms} ms, order", "Kendall's tau with the unseen trials", kind,
                         tau(of_kind, means["unseen trials"])))
@@ -94,18 +118,18 @@ def delay_rows(played, delay_ms):
 def network_rows(kind, table):
     points = {}
     for one in table:
-        points.setdefault(one["point"], {})[one["algorithm"]] = one
+        points.setdefault(one["point"], {}).setdefault(one["algorithm"], []).append(one)
     rows = []
     for algorithm in ALGORITHMS:
         case = f"any network, {algorithm}"
-        usable = [point[algorithm]["tier"] != "unusable" for point in points.values()]
-        rows.append(row(case, "usable, % of points", kind, 100 * sum(usable) / len(usable)))
+        sessions = [one for point in points.values() for one in point[algorithm]]
+        rows.append(row(case, "usable, % of sessions", kind, usable(sessions)))
         if algorithm == "base":
             continue
-        nearer = [float(point[algorithm]["mean_mm"]) < float(point["base"]["mean_mm"])
+        nearer = [mean_between(point[algorithm]) < mean_between(point["base"])
                   for point in points.values()]
-        rows.append(row(case, "nearer than base, % of points", kind,
-                        100 * sum(nearer) / len(nearer)))
+        rows.append(row(case, "nearer than base, % of networks", kind,
+                        100 * statistics.fmean(nearer)))
     return rows
 
 
@@ -136,9 +160,7 @@ def main():
              f"{len(fit['subjects'])} subjects, {fit['simulated_trials']} fitted ones; "
              f"{inside} of {len(fit['figures'])} figures of the fitted motion lie among those of "
              f"the unseen trials.")
-    manifest, = list(options.out.glob("any-network-nominal*/manifest.json"))
-    commit = json.loads(manifest.read_text(encoding="utf-8"))["commit"]
-    print(json.dumps({"about": about, "commit": commit,
+    print(json.dumps({"about": about, "commit": options.commit,
                       "date": datetime.date.today().isoformat(),
                       "machine": f"{os.cpu_count()} processors",
                       "command": "scripts/recorded_hands.py PEOPLE"})[:-1] + ', "rows": [')

@@ -47,11 +47,16 @@ void write(const fs::path& path, const std::string& text)
     disk::ResultFile{path.string()}.commit(text);
 }
 
-/// Writes a population. `script` returns the text of a script by its name.
+/// Writes a population in place of the one that an earlier fit wrote. `script` returns the text of
+/// a script by its name.
 template <typename Script>
 base::Result<void> write_population(const fs::path& folder, const hands::Manifest& manifest,
                                     const Script& script)
 {
+    if (fs::exists(folder / hands::manifest_name)) {
+        for (const auto& entry : fs::directory_iterator{folder})
+            if (entry.path().extension() == ".csv") fs::remove(entry.path());
+    }
     create_folder(folder.string());
     for (const hands::ImportedTrial& trial : manifest.trials) {
         for (const hands::ImportedHand* hand : {&trial.a, trial.b ? &*trial.b : nullptr}) {
@@ -103,6 +108,13 @@ cli::Command& add_fit(cli::Command& program, FitHandsCommand& fit)
 base::Result<std::string> fit_hands(const FitHandsCommand& command)
 {
     const fs::path people{command.people}, out{command.out};
+    if (command.out.empty()) return base::fail("--out: name a folder");
+    for (const char* part : {"seen", "unseen", "simulated"}) {
+        if (!fs::exists(out / part) || !fs::exists(people) || !fs::equivalent(out / part, people))
+            continue;
+        return base::fail(fmt::format("--out {}: {} would be overwritten: choose another folder",
+                                      command.out, command.people));
+    }
     const auto manifest_path = (people / hands::manifest_name).string();
     const auto text = net::text_of_file(manifest_path);
     if (!text) return tl::unexpected{text.error()};
@@ -111,6 +123,7 @@ base::Result<std::string> fit_hands(const FitHandsCommand& command)
     const auto population =
         hands::read_population(command.people, base::Reading{command.people, net::text_of_file});
     if (!population) return tl::unexpected{population.error()};
+    create_folder(command.out);
     hands::ImitationRules rules = command.rules;
     rules.on_subject = [](const std::string& subject) {
         fmt::print(stderr, "fitting a hand to subject {}\n", subject);

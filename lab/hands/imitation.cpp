@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/hands/imitation.hpp"
 
+#include "lab/metrics/subjects.hpp"
 #include "proto/base/fields_json.hpp"
 #include "proto/base/lines.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -47,6 +49,36 @@ struct Recorded {
     const ImportedTrial* imported;
     const Trial* trial;
 };
+
+/// Reports what import hands does not write, and what cannot be compared with the first trial.
+base::Result<void> check(const Recorded& recorded, const ImportedTrial& first)
+{
+    constexpr double tick_s = 1.0 / motion_rate_hz;
+    const ImportedTrial& imported = *recorded.imported;
+    const auto fail = [&](const std::string& why) {
+        return base::fail(
+            fmt::format("trial {} of subject {}: {}", imported.trial, imported.subject, why));
+    };
+    for (const auto& way : recorded.trial->ways) {
+        if (!way) continue;
+        const double end_s = way->back().time_s - way->front().time_s;
+        const auto ticks = static_cast<double>(way->size() - 1);
+        if (std::abs(end_s - ticks * tick_s) > tick_s)
+            return fail("its script does not have a row for each millisecond");
+        if (end_s < 1.0) return fail(fmt::format("its script lasts {:g} s, less than 1 s", end_s));
+    }
+    const auto& [a, b] = recorded.trial->ways;
+    if (b && a->size() != b->size()) return fail("its two scripts are not equally long");
+    if (imported.b.has_value() != first.b.has_value())
+        return fail("some trials are of one hand and some of two: import them into two folders");
+    const bool is_sane = imported.smooth_hz >= 0.5 && imported.smooth_hz <= 50.0 &&
+                         imported.speed_limit_mm_s >= 1.0 && imported.speed_limit_mm_s <= 1e5 &&
+                         std::abs(imported.press_mm) <= 20.0 && imported.touching_share >= 0.0 &&
+                         imported.touching_share <= 1.0;
+    if (is_sane) return {};
+    return fail("smooth_hz, speed_limit_mm_s, press_mm or touching_share is out of the range of "
+                "import hands");
+}
 
 struct Split {
     std::vector<Recorded> seen;
@@ -91,8 +123,7 @@ struct Seen {
 };
 
 /// Returns the seen trials of each subject, in the order of their first trials.
-base::Result<std::vector<std::pair<std::string, Seen>>>
-by_subject(const std::vector<Recorded>& seen)
+std::vector<std::pair<std::string, Seen>> by_subject(const std::vector<Recorded>& seen)
 {
     std::vector<std::pair<std::string, Seen>> subjects;
     for (const Recorded& recorded : seen) {
@@ -100,12 +131,6 @@ by_subject(const std::vector<Recorded>& seen)
         auto subject = std::ranges::find(subjects, name, &std::pair<std::string, Seen>::first);
         if (subject == subjects.end()) subject = subjects.insert(subjects.end(), {name, Seen{}});
         Seen& of = subject->second;
-        if (!of.trials.empty() &&
-            of.trials[0].imported->b.has_value() != recorded.imported->b.has_value()) {
-            return base::fail(fmt::format("subject {} has trials of one hand and of two: import "
-                                          "them as two subjects",
-                                          name));
-        }
         of.trials.push_back(recorded);
         Views views = views_of(*recorded.trial);
         of.middles.push_back(std::move(views.middle));
@@ -114,21 +139,17 @@ by_subject(const std::vector<Recorded>& seen)
     return subjects;
 }
 
-Motion simulated_motion(const MotionModel& model, std::size_t count,
-                        const base::RandomStream& seeds, std::uint32_t draw)
-{
-    return simulated(model, count, motion_rate_hz, base::Seed{seeds.bits(0, draw)});
-}
-
-/// Draws a trial of a subject from its models, as long as a seen one.
-base::Result<Imported> drawn_trial(const SubjectModels& models, const Recorded& like,
-                                   std::uint32_t number, std::uint64_t seed)
+/// Draws a trial of a subject from its models, as long as a seen one, and fits it into the scene.
+base::Result<Imported> drawn_once(const SubjectModels& models, const Recorded& like,
+                                  const std::string& name, const base::RandomStream& seeds,
+                                  std::uint32_t attempt)
 {
     constexpr double apart_m = 1.0; // puts B to the right of A; fit() moves both where they belong
-    const auto name = fmt::format("{}", number);
-    const auto seeds = base::Seed{seed}.stream(fmt::format("hands/{}/{}", models.subject, name));
-    const std::size_t count = like.trial->ways[0]->size();
-    std::vector<Motion> motions{simulated_motion(models.middle, count, seeds, 0)};
+    const auto drawn = [&](const MotionModel& model, std::uint32_t draw) {
+        return simulated(model, like.trial->ways[0]->size(), motion_rate_hz,
+                         base::Seed{seeds.bits(attempt, draw)});
+    };
+    std::vector<Motion> motions{drawn(models.middle, 0)};
     ImportedTrial trial = *like.imported;
     trial.trial = name;
     trial.rate_hz = motion_rate_hz;
@@ -137,9 +158,9 @@ base::Result<Imported> drawn_trial(const SubjectModels& models, const Recorded& 
     trial.a.source = "fit.json";
     if (models.apart) {
         trial.b = trial.a;
-        const Motion apart = simulated_motion(*models.apart, count, seeds, 1);
+        const Motion apart = drawn(*models.apart, 1);
         motions.push_back(motions[0]);
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < apart.size(); ++i) {
             motions[0][i] += 0.5 * apart[i] - glm::dvec3{apart_m, 0.0, 0.0};
             motions[1][i] += glm::dvec3{apart_m, 0.0, 0.0} - 0.5 * apart[i];
         }
@@ -150,22 +171,39 @@ base::Result<Imported> drawn_trial(const SubjectModels& models, const Recorded& 
                          .speed_max_m_per_s = 1e-3 * like.imported->speed_limit_mm_s});
 }
 
+/// Draws a trial that keeps its size in the scene. After some attempts in vain, returns the one
+/// that is scaled the least.
+base::Result<Imported> drawn_trial(const SubjectModels& models, const Recorded& like,
+                                   std::uint32_t number, std::uint64_t seed)
+{
+    constexpr std::uint32_t attempts = 20;
+    const auto name = fmt::format("{}", number);
+    const auto seeds = base::Seed{seed}.stream(fmt::format("hands/{}/{}", models.subject, name));
+    auto best = drawn_once(models, like, name, seeds, 0);
+    for (std::uint32_t i = 1; i < attempts && best && best->trial.scale < 1.0; ++i) {
+        auto other = drawn_once(models, like, name, seeds, i);
+        if (!other || other->trial.scale > best->trial.scale) best = std::move(other);
+    }
+    return best;
+}
+
 /// The figures of trials, in the order in which they are described.
 class Figures {
 public:
-    /// A figure, and its value in each trial.
+    /// A figure: its value in each trial, and the means of the subjects.
     struct Row {
         std::string motion;
         std::string figure;
-        std::vector<double> values;
+        std::vector<double> values{};
+        metrics::SubjectMeans subjects{};
     };
 
     void add(const Trial& trial, double touching_share)
     {
         const Views views = views_of(trial);
-        add("middle", figures_of(views.middle));
-        if (views.apart) add("apart", figures_of(*views.apart));
-        add("both", "touching_share", touching_share);
+        add("middle", figures_of(views.middle), trial.subject);
+        if (views.apart) add("apart", figures_of(*views.apart), trial.subject);
+        add("both", "touching_share", touching_share, trial.subject);
     }
 
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -179,16 +217,21 @@ public:
     }
 
 private:
-    void add(const std::string& motion, const std::string& figure, double value)
+    void add(const std::string& motion, const std::string& figure, double value,
+             const std::string& subject)
     {
-        if (find(motion, figure) == nullptr) rows_.push_back({motion, figure, {}});
-        for (Row& row : rows_)
-            if (row.motion == motion && row.figure == figure) row.values.push_back(value);
+        if (find(motion, figure) == nullptr) rows_.push_back({motion, figure});
+        for (Row& row : rows_) {
+            if (row.motion != motion || row.figure != figure) continue;
+            row.values.push_back(value);
+            row.subjects.add(subject, value);
+        }
     }
-    void add(const std::string& motion, const MotionFigures& figures)
+    void add(const std::string& motion, const MotionFigures& figures, const std::string& subject)
     {
         const auto json = base::json_of(figures);
-        for (const auto& [name, value] : json.items()) add(motion, name, value.get<double>());
+        for (const auto& [name, value] : json.items())
+            add(motion, name, value.get<double>(), subject);
     }
 
     std::vector<Row> rows_;
@@ -202,11 +245,12 @@ Figures figures_of_all(const std::vector<Recorded>& trials)
     return figures;
 }
 
-double mean_of(const std::vector<double>& values)
+/// Returns the mean between subjects: each counts once.
+double mean_of(const Figures::Row& row)
 {
     double sum = 0.0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
+    for (const double value : row.subjects.means()) sum += value;
+    return sum / static_cast<double>(row.subjects.count());
 }
 
 std::vector<ComparedFigure> compared(const Figures& seen, const Figures& unseen,
@@ -219,11 +263,11 @@ std::vector<ComparedFigure> compared(const Figures& seen, const Figures& unseen,
         if (judged == nullptr || drawn == nullptr) continue;
         rows.push_back({.motion = row.motion,
                         .figure = row.figure,
-                        .seen = mean_of(row.values),
-                        .unseen = mean_of(judged->values),
+                        .seen = mean_of(row),
+                        .unseen = mean_of(*judged),
                         .unseen_min = *std::ranges::min_element(judged->values),
                         .unseen_max = *std::ranges::max_element(judged->values),
-                        .simulated = mean_of(drawn->values)});
+                        .simulated = mean_of(*drawn)});
     }
     return rows;
 }
@@ -274,15 +318,18 @@ base::Result<Unseen> parse_unseen(std::string_view text)
 base::Result<Imitated> imitate(const Manifest& manifest, const Population& population,
                                const ImitationRules& rules)
 {
+    for (std::size_t i = 0; i < manifest.trials.size(); ++i) {
+        auto fine = check({&manifest.trials[i], &population.trials[i]}, manifest.trials[0]);
+        if (!fine) return tl::unexpected{fine.error()};
+    }
     const auto parts = split_trials(manifest, population, rules.unseen);
     if (!parts) return tl::unexpected{parts.error()};
     const auto subjects = by_subject(parts->seen);
-    if (!subjects) return tl::unexpected{subjects.error()};
     Imitated imitated;
     Imitation& imitation = imitated.imitation;
     imitation.seed = rules.seed;
     Figures simulated;
-    for (const auto& [name, seen] : *subjects) {
+    for (const auto& [name, seen] : subjects) {
         if (rules.on_subject) rules.on_subject(name);
         SubjectModels models{name, fitted_model(seen.middles), std::nullopt};
         if (!seen.aparts.empty()) models.apart = fitted_model(seen.aparts);
@@ -316,15 +363,20 @@ std::string told(const Imitation& imitation)
                             imitation.unseen_trials, imitation.unseen_trials == 1 ? "" : "s");
     text += fmt::format("{:24}{:>10}{:>10}{:>21}{:>11}\n", "", "seen", "unseen",
                         "(least to largest)", "simulated");
+    const bool is_judged = imitation.unseen_trials >= judging_trials_min;
     std::size_t inside = 0;
     for (const ComparedFigure& row : imitation.figures) {
         inside += row.is_inside() ? 1U : 0U;
         const auto range = fmt::format("({:.4g} to {:.4g})", row.unseen_min, row.unseen_max);
         text += fmt::format("{:24}{:>10.4g}{:>10.4g}{:>21}{:>11.4g}{}\n",
                             row.motion + ' ' + row.figure, row.seen, row.unseen, range,
-                            row.simulated, row.is_inside() ? "" : "  outside");
+                            row.simulated, row.is_inside() || !is_judged ? "" : "  outside");
     }
-    text += fmt::format("{} of {} simulated means are among the values of the unseen trials\n",
+    if (!is_judged)
+        return text + fmt::format("fewer than {} unseen trials: no figure is judged\n",
+                                  judging_trials_min);
+    text += fmt::format("{} of {} simulated means are among the values of the unseen trials; the "
+                        "model misses what is outside\n",
                         inside, imitation.figures.size());
     return text;
 }

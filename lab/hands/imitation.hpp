@@ -40,7 +40,10 @@ constexpr auto fields_of(base::Tag<SubjectModels>)
         base::member("apart", &S::apart, "Motion of A as seen from B; null: there is no B."));
 }
 
-/// A figure of recorded and of simulated motion: means over trials.
+/// The fewest unseen trials whose range judges a figure.
+inline constexpr std::uint64_t judging_trials_min = 3;
+
+/// A figure of recorded and of simulated motion: means over subjects.
 struct ComparedFigure {
     std::string motion;
     std::string figure;
@@ -64,12 +67,15 @@ constexpr auto fields_of(base::Tag<ComparedFigure>)
         base::member("motion", &C::motion,
                      "`middle`, `apart`, or `both` for what concerns both hands."),
         base::member("figure", &C::figure, "Which figure."),
-        base::member("seen", &C::seen, "Mean of the trials to which the models were fitted.")
+        base::member("seen", &C::seen,
+                     "Mean over the subjects of the trials to which the models were fitted.")
             .rounded(4),
-        base::member("unseen", &C::unseen, "Mean of the trials that no fit saw.").rounded(4),
-        base::member("unseen_min", &C::unseen_min, "Least of them.").rounded(4),
-        base::member("unseen_max", &C::unseen_max, "Largest of them.").rounded(4),
-        base::member("simulated", &C::simulated, "Mean of the simulated trials.").rounded(4));
+        base::member("unseen", &C::unseen, "Mean over the subjects of the trials that no fit saw.")
+            .rounded(4),
+        base::member("unseen_min", &C::unseen_min, "Least value of an unseen trial.").rounded(4),
+        base::member("unseen_max", &C::unseen_max, "Largest value of an unseen trial.").rounded(4),
+        base::member("simulated", &C::simulated, "Mean over the subjects of the simulated trials.")
+            .rounded(4));
 }
 
 /// The contents of fit.json.
@@ -124,8 +130,8 @@ struct Imitated {
 
 /// Fits models to recorded hands and draws trials from them. `population` has the trials of the
 /// manifest, in its order. A simulated trial is as long as one of the subject's seen trials, has
-/// their smoothing and is fitted into the scene as they were. Errors say why nothing can be fitted
-/// or judged.
+/// their smoothing and is fitted into the scene as they were. If it has to be scaled down for that,
+/// it is drawn again, up to 20 times. Errors say why nothing can be fitted or judged.
 [[nodiscard]] base::Result<Imitated> imitate(const Manifest& manifest, const Population& population,
                                              const ImitationRules& rules);
 

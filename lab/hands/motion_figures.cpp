@@ -47,15 +47,19 @@ Spectrum spectrum_of(const Places& velocities)
 {
     const std::size_t length = std::min(window_length, velocities.size());
     Spectrum spectrum{};
-    std::vector<double> weighted(length);
-    for (std::size_t from = 0; from + length <= velocities.size();
-         from += std::max<std::size_t>(length / 2, 1)) {
+    std::vector<double> weighted(length), weights(length);
+    for (std::size_t i = 0; i < length; ++i) {
+        const double turn =
+            base::two_pi * (static_cast<double>(i) + 0.5) / static_cast<double>(length);
+        weights[i] = 0.5 * (1.0 - base::cos(turn));
+    }
+    const std::size_t last = velocities.size() - length; // where the last window begins
+    const std::size_t steps = (2 * last + length - 1) / length;
+    for (std::size_t step = 0; step <= steps; ++step) {
+        const std::size_t from = steps == 0 ? 0 : last * step / steps;
         for (const int axis : {0, 1, 2}) {
-            for (std::size_t i = 0; i < length; ++i) {
-                const double turn =
-                    base::two_pi * (static_cast<double>(i) + 0.5) / static_cast<double>(length);
-                weighted[i] = velocities[from + i][axis] * 0.5 * (1.0 - base::cos(turn));
-            }
+            for (std::size_t i = 0; i < length; ++i)
+                weighted[i] = velocities[from + i][axis] * weights[i];
             add_power(spectrum, weighted);
         }
     }
@@ -75,7 +79,7 @@ double hertz_below(const Spectrum& spectrum, double share)
             return spectrum.at(k) > 0.0 ? low + (high - low) * left / spectrum.at(k) : low;
         left -= spectrum.at(k);
     }
-    return spectrum_line_hz * static_cast<double>(spectrum_lines);
+    return (static_cast<double>(spectrum_lines) - 0.5) * spectrum_line_hz;
 }
 
 glm::dvec3 spread_of(const Places& places)
@@ -112,7 +116,7 @@ MotionFigures figures_of(const Places& places)
     const double slow = slow_share * metrics::quantile_of(speeds, 0.95);
     std::size_t peaks = 0, slow_times = 0;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
-        slow_times += speeds[i] < slow ? 1U : 0U;
+        slow_times += speeds[i] <= slow ? 1U : 0U;
         const bool is_inner = i > 0 && i + 1 < speeds.size();
         if (is_inner && speeds[i] > slow && speeds[i] > speeds[i - 1] && speeds[i] >= speeds[i + 1])
             ++peaks;

@@ -57,14 +57,14 @@ constexpr auto fields_of(base::Tag<MotionFigures>)
                      "speed that is exceeded for 5 % of the time do not count.")
             .rounded(3),
         base::member("rest_share", &F::rest_share,
-                     "Share of the time in which the speed is below that tenth.")
+                     "Share of the time in which the speed is not above that tenth.")
             .rounded(4));
 }
 
-/// Returns the figures of a motion of at least three places. The spectrum is Welch's: Hann windows
-/// of 4 s that overlap by half, or one window over a shorter motion (Welch, IEEE Trans. Audio
-/// Electroacoust. 15, 1967). The number of peaks as a measure of smoothness: Rohrer et al., J.
-/// Neurosci. 22, 2002.
+/// Returns the figures of a motion of at least three places. The spectrum is Welch's, up to 10 Hz:
+/// Hann windows of 4 s that overlap by half or more and reach from end to end, or one window over a
+/// shorter motion (Welch, IEEE Trans. Audio Electroacoust. 15, 1967). The number of peaks as a
+/// measure of smoothness: Rohrer et al., J. Neurosci. 22, 2002.
 [[nodiscard]] MotionFigures figures_of(const Places& places);
 
 } // namespace hapnet::lab::hands

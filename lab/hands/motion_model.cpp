@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace hapnet::lab::hands {
 
@@ -67,21 +68,26 @@ void add_unrest(Places& places, const MotionModel& model, double rate_hz, base::
     const glm::dvec3 spread = spread_of(model);
     const double all = glm::length(spread);
     if (all == 0.0) return;
+    std::vector<double> values(places.size());
     for (const int axis : {0, 1, 2}) {
         const double speed = m_per_mm * model.unrest_mm_s * spread[axis] / all;
         for (std::uint32_t sine = 0; sine < sines; ++sine) {
             const auto index = static_cast<std::uint64_t>(axis) * sines + sine;
             const double hertz =
                 model.unrest_hz * base::exp(log_of_octave * (2.0 * stream.uniform(index, 0) - 1.0));
-            const double phase = base::two_pi * stream.uniform(index, 1);
-            const double per_tick = base::two_pi * hertz / rate_hz;
+            const double phase = stream.uniform(index, 1); // turns
+            for (std::size_t i = 0; i < values.size(); ++i)
+                values[i] = phase + hertz / rate_hz * static_cast<double>(i);
+            base::sines_of_turns(values);
             // A sine of the velocity with the root mean square 1/sqrt(sines) of all.
             const double amplitude = speed * std::sqrt(2.0 / sines) / (base::two_pi * hertz);
-            for (std::size_t i = 0; i < places.size(); ++i)
-                places[i][axis] += amplitude * base::sin(phase + per_tick * static_cast<double>(i));
+            for (std::size_t i = 0; i < values.size(); ++i)
+                places[i][axis] += amplitude * values[i];
         }
     }
 }
+
+constexpr double least_length_mm = 0.1; // added to spreads before their logarithm
 
 /// The figures as they are compared.
 using Score = std::array<double, 9>;
@@ -90,11 +96,11 @@ Score score_of(const Places& places)
 {
     const MotionFigures figures = figures_of(places);
     // Added before the logarithm, so that what hardly moves compares as equal.
-    constexpr double length_mm = 0.1, speed_mm_s = 1.0, frequency_hz = 0.05, per_s = 0.3;
+    constexpr double speed_mm_s = 1.0, frequency_hz = 0.05, per_s = 0.3;
     constexpr double rest_weight = 2.0; // a difference of half the time counts like a factor of e
-    return {base::log(figures.spread_x_mm + length_mm),
-            base::log(figures.spread_y_mm + length_mm),
-            base::log(figures.spread_z_mm + length_mm),
+    return {base::log(figures.spread_x_mm + least_length_mm),
+            base::log(figures.spread_y_mm + least_length_mm),
+            base::log(figures.spread_z_mm + least_length_mm),
             base::log(figures.speed_mm_s + speed_mm_s),
             base::log(figures.speed_max_mm_s + speed_mm_s),
             base::log(figures.half_power_hz + frequency_hz),
@@ -112,12 +118,19 @@ struct Goal {
 
 Goal goal_of(std::span<const Places> recorded)
 {
-    constexpr double sd_min = 0.1; // a tenth of a figure, and what a single motion has
+    constexpr double sd_min = 0.1;        // a tenth of a figure, and what a single motion has
+    constexpr std::size_t longest = 1500; // 30 s: longer motions are cut
     Goal goal;
     std::vector<Score> scores;
     for (const Places& places : recorded) {
-        scores.push_back(score_of(places));
-        goal.lengths.push_back(places.size());
+        const std::size_t parts = 1 + (places.size() - 1) / longest;
+        for (std::size_t part = 0; part < parts; ++part) {
+            const auto at = [&](std::size_t i) {
+                return places.begin() + static_cast<std::ptrdiff_t>(places.size() * i / parts);
+            };
+            scores.push_back(score_of({at(part), at(part + 1)}));
+            goal.lengths.push_back(static_cast<std::size_t>(at(part + 1) - at(part)));
+        }
     }
     const auto count = static_cast<double>(scores.size());
     for (std::size_t k = 0; k < goal.mean.size(); ++k) {
@@ -136,17 +149,15 @@ Goal goal_of(std::span<const Places> recorded)
 /// for every model.
 double cost_of(const MotionModel& model, const Goal& goal)
 {
-    constexpr std::size_t motions_min = 24;
-    const std::size_t copies = 1 + (motions_min - 1) / goal.lengths.size();
-    const auto count = static_cast<double>(copies * goal.lengths.size());
+    constexpr std::size_t motions = 24;
     Score mean{};
-    std::uint64_t seed = 0;
-    for (std::size_t copy = 0; copy < copies; ++copy) {
-        for (const std::size_t length : goal.lengths) {
-            const Score score =
-                score_of(simulated(model, length, figures_rate_hz, base::Seed{++seed}));
-            for (std::size_t k = 0; k < mean.size(); ++k) mean.at(k) += score.at(k) / count;
-        }
+    for (std::size_t i = 0; i < motions; ++i) {
+        // Their lengths are spread over those of the recorded motions.
+        const std::size_t count = goal.lengths.size();
+        const std::size_t length = goal.lengths[count > motions ? i * count / motions : i % count];
+        const Score score = score_of(simulated(model, length, figures_rate_hz, base::Seed{i + 1}));
+        for (std::size_t k = 0; k < mean.size(); ++k)
+            mean.at(k) += score.at(k) / static_cast<double>(motions);
     }
     double cost = 0.0;
     for (std::size_t k = 0; k < mean.size(); ++k) {
@@ -171,6 +182,38 @@ constexpr std::array fitted_parameters{Parameter{&MotionModel::target_x_mm, 0.01
                                        Parameter{&MotionModel::unrest_mm_s, 0.1, 1000.0},
                                        Parameter{&MotionModel::unrest_hz, 0.5, 4.0}};
 
+struct Candidate {
+    MotionModel model;
+    double cost = 0.0;
+};
+
+/// Searches from a start along one parameter after another, with steps that are halved.
+Candidate searched(const MotionModel& start, const Goal& goal)
+{
+    constexpr double step_first = 0.4, step_last = 0.04; // of the logarithm of a parameter
+    constexpr double enough = 0.999;                     // a smaller gain is none
+    constexpr int sweeps_max = 60;
+    Candidate best{start, cost_of(start, goal)};
+    int sweeps = 0;
+    for (double step = step_first; step > step_last && sweeps < sweeps_max; ++sweeps) {
+        bool is_better = false;
+        for (const Parameter& parameter : fitted_parameters) {
+            for (const double factor : {base::exp(step), base::exp(-step)}) {
+                MotionModel other = best.model;
+                other.*parameter.value =
+                    std::clamp(other.*parameter.value * factor, parameter.least, parameter.most);
+                const double cost = cost_of(other, goal);
+                if (!(cost < enough * best.cost)) continue;
+                best = {other, cost};
+                is_better = true;
+                break;
+            }
+        }
+        if (!is_better) step *= 0.5;
+    }
+    return best;
+}
+
 } // namespace
 
 std::vector<glm::dvec3> simulated(const MotionModel& model, std::size_t count, double rate_hz,
@@ -185,33 +228,25 @@ std::vector<glm::dvec3> simulated(const MotionModel& model, std::size_t count, d
 MotionModel fitted_model(std::span<const Places> recorded)
 {
     base::ensure(!recorded.empty());
-    constexpr double step_first = 0.4, step_last = 0.04; // of the logarithm of a parameter
-    constexpr double enough = 0.999;                     // a smaller gain is none
     const Goal goal = goal_of(recorded);
-    MotionModel model;
-    model.target_x_mm = base::exp(goal.mean[0]);
-    model.target_y_mm = base::exp(goal.mean[1]);
-    model.target_z_mm = base::exp(goal.mean[2]);
-    model.unrest_mm_s = 0.3 * base::exp(goal.mean[3]);
-    double least = cost_of(model, goal);
-    for (double step = step_first; step > step_last;) {
-        bool is_better = false;
-        for (const Parameter& parameter : fitted_parameters) {
-            for (const double factor : {base::exp(step), base::exp(-step)}) {
-                MotionModel other = model;
-                other.*parameter.value =
-                    std::clamp(model.*parameter.value * factor, parameter.least, parameter.most);
-                const double cost = cost_of(other, goal);
-                if (cost >= enough * least) continue;
-                model = other;
-                least = cost;
-                is_better = true;
-                break;
-            }
-        }
-        if (!is_better) step *= 0.5;
+    MotionModel first;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Parameter& target = fitted_parameters.at(k);
+        first.*target.value =
+            std::clamp(base::exp(goal.mean.at(k)) - least_length_mm, target.least, target.most);
     }
-    return model;
+    first.unrest_mm_s = 0.3 * base::exp(goal.mean[3]);
+    std::optional<Candidate> best;
+    for (const double movement_s : {0.4, 1.2}) {
+        for (const double rest_s : {0.1, 0.6}) {
+            MotionModel start = first;
+            start.movement_s = movement_s;
+            start.rest_s = rest_s;
+            const Candidate found = searched(start, goal);
+            if (!best || found.cost < best->cost) best = found;
+        }
+    }
+    return best->model;
 }
 
 } // namespace hapnet::lab::hands

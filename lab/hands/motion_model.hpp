@@ -54,10 +54,11 @@ constexpr auto fields_of(base::Tag<MotionModel>)
 
 /// Returns the model whose simulated motions have the figures of the recorded ones, in the mean:
 /// the least sum of squared differences, relative to the standard deviation between the recorded
-/// motions. The figures are compared as logarithms, the share of rest as it is. The least sum is
-/// searched from a fixed start along one parameter after another, with steps that are halved
-/// (Hooke, Jeeves, J. ACM 8, 1961). So it may be a local one. Needs at least one motion of three
-/// places.
+/// motions, but at least 0.1. The figures are compared as logarithms, the share of rest as twice
+/// itself. Recorded motions of more than 30 s are cut into equal parts. The least sum is searched
+/// from four fixed starts along one parameter after another, with steps that are halved (Hooke,
+/// Jeeves, J. ACM 8, 1961). So it may be a local one. Needs at least one motion; each has at least
+/// three places.
 [[nodiscard]] MotionModel fitted_model(std::span<const Places> recorded);
 
 } // namespace hapnet::lab::hands

@@ -239,6 +239,8 @@ def fits():
     assert (FOLDER / "again/fit.json").read_bytes() == (out / "fit.json").read_bytes()
     refused = lab("fit", "hands", FOLDER / "people", "--unseen", "77", "--out", out, code=2)
     assert "the folder has no such subject: its subjects are 01, 02" in refused, refused
+    refused = lab("fit", "hands", out / "unseen", "--out", out, code=2)
+    assert "would be overwritten" in refused, refused
     refused = lab("fit", "hands", FOLDER, "--out", out, code=2)
     assert "manifest.json" in refused, refused
 
@@ -287,6 +289,7 @@ def own_figures(folder, trial):
 
 def check_figures(fit, kind, trials):
     for motion, figure in trials[0]:
+        # Every subject has equally many trials.
         meant = statistics.fmean(trial[motion, figure] for trial in trials)
         said = compared(fit, motion, figure)[kind]
         assert abs(said - meant) <= 1e-3 * meant + 1e-3, (kind, motion, figure, said, meant)

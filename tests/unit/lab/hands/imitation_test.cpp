@@ -26,7 +26,7 @@ public:
         model.target_x_mm = 8.0;
         std::vector<Motion> motions;
         for (std::uint64_t hand = 0; hand < (has_b ? 2U : 1U); ++hand) {
-            motions.push_back(simulated(model, 4001, motion_rate_hz, base::Seed{++seed_}));
+            motions.push_back(simulated(model, 2001, motion_rate_hz, base::Seed{++seed_}));
             for (glm::dvec3& place : motions.back()) place.x += hand == 0 ? -1.0 : 1.0;
         }
         auto imported = fitted_trial(trial, motions, {}).value();
@@ -51,6 +51,20 @@ public:
     {
         const auto result = imitated(rules);
         return result ? "" : result.error().message;
+    }
+
+    /// Keeps the header and so many rows of a script, each `step`-th one.
+    void keep_rows(const std::string& script, std::size_t rows, std::size_t step = 1)
+    {
+        std::string& text = files_.at(script);
+        std::string kept;
+        std::size_t line = 0;
+        for (std::size_t from = 0; from < text.size() && line <= rows * step; ++line) {
+            const auto end = text.find('\n', from) + 1;
+            if (line == 0 || (line - 1) % step == 0) kept += text.substr(from, end - from);
+            from = end;
+        }
+        text = kept;
     }
 
     Manifest manifest;
@@ -139,7 +153,39 @@ TEST(Imitation, SaysWhyNothingCanBeFittedOrJudged)
     people.add("01", "c");
     people.add("01", "d");
     EXPECT_EQ(people.refusal({.unseen = parse_unseen("02").value()}),
-              "subject 01 has trials of one hand and of two: import them as two subjects");
+              "trial b of subject 01: some trials are of one hand and some of two: import them "
+              "into two folders");
+}
+
+TEST(Imitation, RefusesWhatNoImportWrites)
+{
+    const auto refusal_of = [](const auto& change) {
+        People people;
+        for (const char* trial : {"a", "b"}) people.add("01", trial);
+        change(people);
+        return people.refusal({});
+    };
+    EXPECT_EQ(refusal_of([](People& people) { people.manifest.trials[1].smooth_hz = 0.0; }),
+              "trial b of subject 01: smooth_hz, speed_limit_mm_s, press_mm or touching_share is "
+              "out of the range of import hands");
+    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-b.csv", 1500); }),
+              "trial a of subject 01: its two scripts are not equally long");
+    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-a.csv", 12); }),
+              "trial a of subject 01: its script lasts 0.011 s, less than 1 s");
+    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-a.csv", 1000, 2); }),
+              "trial a of subject 01: its script does not have a row for each millisecond");
+}
+
+TEST(Imitation, KeepsItsSizeInTheScene)
+{
+    People people;
+    for (const char* trial : {"a", "b"}) people.add("01", trial);
+    ImitationRules rules;
+    rules.trials = 20;
+    const auto made = people.imitated(rules).value();
+    std::size_t scaled = 0;
+    for (const ImportedTrial& trial : made.simulated.trials) scaled += trial.scale < 1.0 ? 1U : 0U;
+    EXPECT_LE(scaled, 2U);
 }
 
 TEST(Unseen, IsHalfOrNamesOfSubjects)

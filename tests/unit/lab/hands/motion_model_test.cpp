@@ -73,8 +73,8 @@ TEST(FittedModel, FindsTheModelOfItsOwnMotions)
     truth.unrest_mm_s = 15.0;
     truth.unrest_hz = 3.0;
     std::vector<Places> recorded;
-    for (std::uint64_t seed = 1001; seed <= 1030; ++seed)
-        recorded.push_back(drawn(truth, 500, seed));
+    for (std::uint64_t seed = 1001; seed <= 1024; ++seed)
+        recorded.push_back(drawn(truth, 400, seed));
     const MotionModel found = fitted_model(recorded);
     EXPECT_NEAR(found.target_x_mm, truth.target_x_mm, 0.2 * truth.target_x_mm);
     EXPECT_NEAR(found.target_y_mm, truth.target_y_mm, 0.2 * truth.target_y_mm);
