@@ -26,7 +26,7 @@ public:
         model.target_x_mm = 8.0;
         std::vector<Motion> motions;
         for (std::uint64_t hand = 0; hand < (has_b ? 2U : 1U); ++hand) {
-            motions.push_back(simulated(model, 2001, motion_rate_hz, base::Seed{++seed_}));
+            motions.push_back(simulated(model, 1201, motion_rate_hz, base::Seed{++seed_}));
             for (glm::dvec3& place : motions.back()) place.x += hand == 0 ? -1.0 : 1.0;
         }
         auto imported = fitted_trial(trial, motions, {}).value();
@@ -116,7 +116,7 @@ TEST(Imitation, ComparesEveryFigureOfTheThreeKinds)
 TEST(Imitation, IsTheSameForTheSameSeed)
 {
     People people;
-    for (const char* trial : {"a", "b"}) people.add("01", trial);
+    for (const char* trial : {"a", "b"}) people.add("01", trial, false);
     ImitationRules rules;
     const auto once = people.imitated(rules).value();
     const auto again = people.imitated(rules).value();
@@ -168,11 +168,11 @@ TEST(Imitation, RefusesWhatNoImportWrites)
     EXPECT_EQ(refusal_of([](People& people) { people.manifest.trials[1].smooth_hz = 0.0; }),
               "trial b of subject 01: smooth_hz, speed_limit_mm_s, press_mm or touching_share is "
               "out of the range of import hands");
-    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-b.csv", 1500); }),
+    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-b.csv", 1100); }),
               "trial a of subject 01: its two scripts are not equally long");
     EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-a.csv", 12); }),
               "trial a of subject 01: its script lasts 0.011 s, less than 1 s");
-    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-a.csv", 1000, 2); }),
+    EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-a.csv", 600, 2); }),
               "trial a of subject 01: its script does not have a row for each millisecond");
 }
 
