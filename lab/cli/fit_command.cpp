@@ -110,10 +110,13 @@ base::Result<std::string> fit_hands(const FitHandsCommand& command)
     const fs::path people{command.people}, out{command.out};
     if (command.out.empty()) return base::fail("--out: name a folder");
     for (const char* part : {"seen", "unseen", "simulated"}) {
-        if (!fs::exists(out / part) || !fs::exists(people) || !fs::equivalent(out / part, people))
-            continue;
+        const fs::path folder = out / part;
+        const bool is_of_a_fit = fs::exists(out / "fit.json");
+        const bool is_input =
+            fs::exists(folder) && fs::exists(people) && fs::equivalent(folder, people);
+        if (!is_input && (is_of_a_fit || !fs::exists(folder / hands::manifest_name))) continue;
         return base::fail(fmt::format("--out {}: {} would be overwritten: choose another folder",
-                                      command.out, command.people));
+                                      command.out, folder.string()));
     }
     const auto manifest_path = (people / hands::manifest_name).string();
     const auto text = net::text_of_file(manifest_path);
