@@ -187,7 +187,9 @@ test_sanitizers() {
 }
 
 test_clock() {
-    test_step clock-tests "$release" --parallel "$(nproc)" --label-regex '^(clock|permissions)$'
+    # They wait for most of their time.
+    test_step clock-tests "$release" --parallel $((2 * $(nproc))) \
+        --label-regex '^(clock|permissions)$'
 }
 
 # test_programs [LABEL]

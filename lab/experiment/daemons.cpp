@@ -74,9 +74,8 @@ std::vector<ProgramFile> program_files(const virtual_time::Setting& setting)
             {"right.toml", device::print_operator(players[1].person)},
             {"scene.toml", scene::to_text(setting.scene)},
             {"profile.toml", emulator::to_text(setting.profile)},
-            {"peer.words",
-             fmt::format("--send {} --playout {}\n", text_of(players[0].send),
-                         base::name_of(players[0].playout))}};
+            {"peer.words", fmt::format("--send {} --playout {}\n", text_of(players[0].send),
+                                       base::name_of(players[0].playout))}};
 }
 
 } // namespace hapnet::lab::experiment

@@ -27,25 +27,38 @@ constexpr double slow_share = 0.1;                            // of the speed be
 using Spectrum = std::array<double, spectrum_lines>;
 
 /// Adds the power of one axis of a stretch, by Goertzel's algorithm (Am. Math. Monthly 65, 1958).
-void add_power(Spectrum& spectrum, std::span<const double> weighted)
+/// It goes through the stretch once, for all frequencies side by side: none waits for another.
+void add_power(Spectrum& spectrum, const Spectrum& twice_cos, std::span<const double> weighted)
 {
-    for (std::size_t k = 0; k < spectrum_lines; ++k) {
-        const double turn =
-            base::two_pi * spectrum_line_hz * static_cast<double>(k) / figures_rate_hz;
-        const double twice_cos = 2.0 * base::cos(turn);
-        double last = 0.0, before = 0.0;
-        for (const double value : weighted) {
-            const double next = value + twice_cos * last - before;
-            before = last;
-            last = next;
+    Spectrum last{}, before{};
+    for (const double value : weighted) {
+        for (std::size_t k = 0; k < spectrum_lines; ++k) {
+            const double next = value + twice_cos[k] * last[k] - before[k];
+            before[k] = last[k];
+            last[k] = next;
         }
-        spectrum.at(k) += last * last + before * before - twice_cos * last * before;
     }
+    for (std::size_t k = 0; k < spectrum_lines; ++k) {
+        spectrum[k] +=
+            last[k] * last[k] + before[k] * before[k] - twice_cos[k] * last[k] * before[k];
+    }
+}
+
+/// Returns twice the cosine of what the sine of each frequency turns by from sample to sample.
+Spectrum turns_of_lines()
+{
+    Spectrum twice_cos{};
+    for (std::size_t k = 0; k < spectrum_lines; ++k) {
+        const double hertz = spectrum_line_hz * static_cast<double>(k);
+        twice_cos[k] = 2.0 * base::cos(base::two_pi * hertz / figures_rate_hz);
+    }
+    return twice_cos;
 }
 
 Spectrum spectrum_of(const Places& velocities)
 {
     const std::size_t length = std::min(window_length, velocities.size());
+    static const Spectrum twice_cos = turns_of_lines();
     Spectrum spectrum{};
     std::vector<double> weighted(length), weights(length);
     for (std::size_t i = 0; i < length; ++i) {
@@ -60,7 +73,7 @@ Spectrum spectrum_of(const Places& velocities)
         for (const int axis : {0, 1, 2}) {
             for (std::size_t i = 0; i < length; ++i)
                 weighted[i] = velocities[from + i][axis] * weights[i];
-            add_power(spectrum, weighted);
+            add_power(spectrum, twice_cos, weighted);
         }
     }
     spectrum.front() *= 0.5; // only half of its band is above 0

@@ -25,12 +25,19 @@ except ImportError:
 
 repository = Path(__file__).resolve().parents[3]
 
-# The schema of a file in a folder of results, by its name.
-of_files = [(r"(results|sessions|real_time)\.json", "tables"), (r"manifest\.json", "manifest"),
+# The schema of a file in a folder of results, by the end of its path.
+of_files = [(r"(seen|unseen|simulated)/manifest\.json", "hands"), (r"manifest\.json", "manifest"),
+            (r"(results|sessions|real_time)\.json", "tables"), (r"fit\.json", "fitted-hands"),
             (r"analysis\.json", "analysis"), (r"emulator\.json", "emulator"),
             (r"peer-\d+\.json", "peer"), (r"plan\.json", "plan"),
             (r"(sessions|\d+-of-\d+)\.jsonl", "sessions"), (r"result\.json", "attempt"),
             (r"peer-\d+-events\.jsonl", "events")]
+
+
+def schema_name_of(path):
+    """The name of the schema that a path stands for; None where it stands for none."""
+    return next((name for pattern, name in of_files
+                 if re.search(f"(^|/){pattern}$", str(path))), None)
 
 
 def strict(schema):
@@ -81,7 +88,7 @@ def faults_in(validator, document):
 
 def faults_in_file(validators, path):
     """Likewise for a file, line by line where it is one of lines; and how many it has."""
-    name = next((schema for pattern, schema in of_files if re.fullmatch(pattern, path.name)), None)
+    name = schema_name_of(path)
     if name is None:
         return [f"{path}: no schema is for files of this name"], 0
     text = path.read_text()

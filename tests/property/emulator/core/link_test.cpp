@@ -3,6 +3,7 @@
 // A link under settings, arrivals and refusals that all come from a seed.
 #include "emulator/core/conditions.hpp"
 #include "emulator/core/link.hpp"
+#include "tests/support/seeds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -133,7 +134,7 @@ void run_scenario(const Scenario& scenario, const Scenario& other)
 
 TEST(Link, AccountsForEveryDatagramAndLetsNoneLeaveEarlyWhateverTheSettings)
 {
-    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    for (std::uint64_t seed = 0; seed < test::seeds(400); ++seed) {
         SCOPED_TRACE(seed);
         ASSERT_NO_FATAL_FAILURE(run_scenario(Scenario{seed}, Scenario{seed + 1000}));
     }

@@ -74,18 +74,30 @@ private:
     std::uint64_t seed_ = 0;
 };
 
+/// Two subjects, four trials of one and one of the other, and their fit: made once, as it takes
+/// long.
+const Imitated& imitation()
+{
+    static const Imitated made = [] {
+        People people;
+        for (const char* trial : {"a", "b", "c", "d"}) people.add("01", trial);
+        ImitationRules rules;
+        rules.trials = 10;
+        return people.imitated(rules).value();
+    }();
+    return made;
+}
+
 TEST(Imitation, KeepsEachSecondTrialOfASubjectFromTheFit)
 {
-    People people;
-    for (const char* trial : {"a", "b", "c"}) people.add("01", trial);
-    people.add("02", "a");
-    const auto made = people.imitated({}).value();
-    ASSERT_EQ(made.unseen.trials.size(), 1U);
+    const Imitated& made = imitation();
+    ASSERT_EQ(made.unseen.trials.size(), 2U);
     EXPECT_EQ(made.unseen.trials[0].trial, "b");
-    EXPECT_EQ(made.seen.trials.size(), 3U);
-    EXPECT_EQ(made.imitation.subjects.size(), 2U);
-    EXPECT_EQ(made.simulated.trials.size(), 4U); // as many as were recorded
-    EXPECT_EQ(made.scripts.size(), 8U);
+    EXPECT_EQ(made.unseen.trials[1].trial, "d");
+    EXPECT_EQ(made.seen.trials.size(), 2U);
+    EXPECT_EQ(made.imitation.subjects.size(), 1U);
+    EXPECT_EQ(made.simulated.trials.size(), 10U);
+    EXPECT_EQ(made.scripts.size(), 20U);
     EXPECT_TRUE(parse_manifest(to_text(made.simulated), "m.json"));
     EXPECT_EQ(made.simulated.trials[0].a.source, "fit.json");
     EXPECT_NE(made.simulated.trials[0].a.script, made.simulated.trials[1].a.script);
@@ -93,11 +105,7 @@ TEST(Imitation, KeepsEachSecondTrialOfASubjectFromTheFit)
 
 TEST(Imitation, ComparesEveryFigureOfTheThreeKinds)
 {
-    People people;
-    for (const char* trial : {"a", "b", "c", "d"}) people.add("01", trial);
-    ImitationRules rules;
-    rules.trials = 10;
-    const auto made = people.imitated(rules).value();
+    const Imitated& made = imitation();
     ASSERT_EQ(made.imitation.figures.size(), 19U);
     EXPECT_EQ(made.imitation.figures.front().figure, "spread_x_mm");
     EXPECT_EQ(made.imitation.figures.back().motion, "both");
@@ -113,27 +121,29 @@ TEST(Imitation, ComparesEveryFigureOfTheThreeKinds)
         << text;
 }
 
-TEST(Imitation, IsTheSameForTheSameSeed)
+TEST(Imitation, KeepsItsSizeInTheScene)
+{
+    std::size_t scaled = 0;
+    for (const ImportedTrial& trial : imitation().simulated.trials)
+        scaled += trial.scale < 1.0 ? 1U : 0U;
+    EXPECT_LE(scaled, 2U);
+}
+
+TEST(Imitation, OfASingleHandIsTheSameForTheSameSeed)
 {
     People people;
     for (const char* trial : {"a", "b"}) people.add("01", trial, false);
     ImitationRules rules;
+    rules.trials = 2;
     const auto once = people.imitated(rules).value();
+    EXPECT_FALSE(once.imitation.subjects[0].apart);
+    EXPECT_FALSE(once.simulated.trials[0].b);
+    EXPECT_EQ(once.imitation.figures.size(), 10U);
     const auto again = people.imitated(rules).value();
     EXPECT_EQ(to_text(once.imitation), to_text(again.imitation));
     EXPECT_EQ(once.scripts[0].text, again.scripts[0].text);
     rules.seed = 2;
     EXPECT_NE(people.imitated(rules).value().scripts[0].text, once.scripts[0].text);
-}
-
-TEST(Imitation, FitsASingleHand)
-{
-    People people;
-    for (const char* trial : {"a", "b"}) people.add("01", trial, false);
-    const auto made = people.imitated({}).value();
-    EXPECT_FALSE(made.imitation.subjects[0].apart);
-    EXPECT_FALSE(made.simulated.trials[0].b);
-    EXPECT_EQ(made.imitation.figures.size(), 10U);
 }
 
 TEST(Imitation, SaysWhyNothingCanBeFittedOrJudged)
@@ -174,18 +184,6 @@ TEST(Imitation, RefusesWhatNoImportWrites)
               "trial a of subject 01: its script lasts 0.011 s, less than 1 s");
     EXPECT_EQ(refusal_of([](People& people) { people.keep_rows("01-a-a.csv", 600, 2); }),
               "trial a of subject 01: its script does not have a row for each millisecond");
-}
-
-TEST(Imitation, KeepsItsSizeInTheScene)
-{
-    People people;
-    for (const char* trial : {"a", "b"}) people.add("01", trial);
-    ImitationRules rules;
-    rules.trials = 20;
-    const auto made = people.imitated(rules).value();
-    std::size_t scaled = 0;
-    for (const ImportedTrial& trial : made.simulated.trials) scaled += trial.scale < 1.0 ? 1U : 0U;
-    EXPECT_LE(scaled, 2U);
 }
 
 TEST(Unseen, IsHalfOrNamesOfSubjects)

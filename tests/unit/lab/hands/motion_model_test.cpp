@@ -87,9 +87,9 @@ TEST(FittedModel, FindsTheModelOfItsOwnMotions)
 
 TEST(FittedModel, IsFiniteForAHandThatNeverMoves)
 {
-    const std::vector<Places> recorded{Places(200, glm::dvec3{0.01})};
+    const std::vector<Places> recorded{Places(20, glm::dvec3{0.01})};
     const MotionModel found = fitted_model(recorded);
-    for (const auto& place : drawn(found, 200, 5)) EXPECT_LT(glm::length(place), 1e-3);
+    for (const auto& place : drawn(found, 20, 5)) EXPECT_LT(glm::length(place), 1e-3);
 }
 
 } // namespace
