@@ -44,6 +44,26 @@ def records(folder, name):
     return keys, [dict(zip(keys, row)) for row in tables[name]["rows"]]
 
 
+def row(case, subject, metric, value, target=None):
+    """A row without a baseline. A target is the most that the value may be."""
+    return {"case": case, "subject": subject, "baseline": None, "metric": metric, "value": value,
+            "baseline_value": None, "ratio": None, "target": target, "direction": "max",
+            "met": None if target is None else value <= target}
+
+
+def head(manifest, command):
+    """What comes before the rows: who made them, by the manifest of a folder of results."""
+    return {"commit": manifest["commit"], "date": manifest["start"][:10],
+            "machine": f"{manifest['host']['processors']} processors", "command": command}
+
+
+def print_file(of_head, rows):
+    """Prints a data file, with a line for each row."""
+    print(json.dumps(of_head)[:-1] + ', "rows": [')
+    print(",\n".join("  " + json.dumps(one) for one in rows))
+    print("]}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -60,19 +80,13 @@ def main():
     for key in (*case, options.subject, *metrics, *wanted):
         if key not in keys:
             refuse(f"{options.table} has no key {key}: it has {', '.join(keys)}")
-    rows = [{"case": ", ".join(str(one[key]) for key in case), "subject": one[options.subject],
-             "baseline": None, "metric": metric, "value": one[metric], "baseline_value": None,
-             "ratio": None, "target": None, "direction": "max", "met": None}
+    rows = [row(", ".join(str(one[key]) for key in case), one[options.subject], metric, one[metric])
             for one in table if all(str(one[key]) == value for key, value in wanted.items())
             for metric in metrics if one[metric] is not None]
     if not rows:
         refuse(f"no row of {options.table} is as --where says")
     manifest = read(options.folder / "manifest.json")
-    print(json.dumps({"commit": manifest["commit"], "date": manifest["start"][:10],
-                      "machine": f"{manifest['host']['processors']} processors",
-                      "command": options.command or manifest["command"]})[:-1] + ', "rows": [')
-    print(",\n".join("  " + json.dumps(row) for row in rows))
-    print("]}")
+    print_file(head(manifest, options.command or manifest["command"]), rows)
     return 0
 
 

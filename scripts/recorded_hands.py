@@ -15,15 +15,16 @@ one delay, two networks and four fitted trials, half a minute.
 """
 import argparse
 import csv
-import datetime
 import itertools
 import json
 import math
-import os
 import pathlib
 import statistics
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True
+import data_rows  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ALGORITHMS = ("base", "sep", "dead-reckoning", "remote-proxy")
@@ -54,7 +55,7 @@ def play(options, experiment, kind, *settings):
     out = options.out / "-".join([experiment, kind.replace(" ", "-"), *settings]).replace("=", "-")
     lab(options, "run", experiment, "--out", out,
         *(word for setting in words for word in ("--set", setting)))
-    options.commit = json.loads((out / "manifest.json").read_text(encoding="utf-8"))["commit"]
+    options.manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
     name = "sessions_by_point.csv" if experiment == "any-network" else "sessions.csv"
     with open(out / name, newline="", encoding="utf-8") as file:
         return [one for one in csv.DictReader(file) if one["task"] == "T3"]
@@ -78,10 +79,7 @@ def nine_of_ten(values):
 
 
 def row(case, metric, kind, value, target=None):
-    value = round(value, 4)
-    return {"case": case, "subject": kind, "baseline": None, "metric": metric, "value": value,
-            "baseline_value": None, "ratio": None, "target": target, "direction": "max",
-            "met": None if target is None else value <= target}
+    return data_rows.row(case, kind, metric, round(value, 4), target)
 
 
 def tau(means, others):
@@ -160,12 +158,9 @@ def main():
              f"{len(fit['subjects'])} subjects, {fit['simulated_trials']} fitted ones; "
              f"{inside} of {len(fit['figures'])} figures of the fitted motion lie among those of "
              f"the unseen trials.")
-    print(json.dumps({"about": about, "commit": options.commit,
-                      "date": datetime.date.today().isoformat(),
-                      "machine": f"{os.cpu_count()} processors",
-                      "command": "scripts/recorded_hands.py PEOPLE"})[:-1] + ', "rows": [')
-    print(",\n".join("  " + json.dumps(one) for one in rows))
-    print("]}")
+    data_rows.print_file({"about": about,
+                          **data_rows.head(options.manifest, "scripts/recorded_hands.py PEOPLE")},
+                         rows)
     return 0
 
 

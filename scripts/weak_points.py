@@ -12,13 +12,14 @@ seed, five points, about a minute; without it about seven minutes on two process
 """
 import argparse
 import csv
-import datetime
 import json
-import os
 import pathlib
 import statistics
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True
+import data_rows  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SEEDS, FIRST_SEED = 10, 600001
@@ -61,12 +62,6 @@ def run(options, experiment, out, settings):
         return list(csv.DictReader(file))
 
 
-def row(case, subject, metric, value, base=None):
-    return {"case": case, "subject": subject, "baseline": None, "metric": metric,
-            "value": value, "baseline_value": base, "ratio": None, "target": None,
-            "direction": "max", "met": None}
-
-
 def case_rows(options, number, case):
     name, measured, settings, cure = case
     tasks = ", ".join(f'"{task}"' for task in measured)
@@ -85,7 +80,7 @@ def case_rows(options, number, case):
                 algorithm = subject.split(",")[0]
                 value, = [float(one[metric]) for one in played
                           if (one["algorithm"], one["task"]) == (algorithm, task)]
-                rows.append(row(f"{name}, {task}", subject, words, value))
+                rows.append(data_rows.row(f"{name}, {task}", subject, words, value))
     return rows
 
 
@@ -101,15 +96,16 @@ def map_rows(options):
             ratios = [float(both["remote-proxy"][metric]) / float(both["base"][metric])
                       for both in pairs if float(both["base"][metric]) > 0]
             case = f"any hand, {task}, {WORDS[metric].split(',')[0]}"
-            rows += [row(case, "remote-proxy", "larger than base's by 5 %, % of points",
-                         round(100 * sum(ratio > 1.05 for ratio in ratios) / len(ratios), 1)),
-                     row(case, "remote-proxy", "median of the ratios",
-                         round(statistics.median(ratios), 3)),
-                     row(case, "remote-proxy", "largest ratio", round(max(ratios), 2))]
+            for metric_word, value in (
+                    ("larger than base's by 5 %, % of points",
+                     round(100 * sum(ratio > 1.05 for ratio in ratios) / len(ratios), 1)),
+                    ("median of the ratios", round(statistics.median(ratios), 3)),
+                    ("largest ratio", round(max(ratios), 2))):
+                rows.append(data_rows.row(case, "remote-proxy", metric_word, value))
         for algorithm in ("base", "remote-proxy"):
             usable = [both[algorithm]["tier"] != "unusable" for both in pairs]
-            rows.append(row(f"any hand, {task}", algorithm, "usable, % of points",
-                            round(100 * sum(usable) / len(usable), 1)))
+            rows.append(data_rows.row(f"any hand, {task}", algorithm, "usable, % of points",
+                                      round(100 * sum(usable) / len(usable), 1)))
     return rows
 
 
@@ -125,13 +121,9 @@ def main():
             for one in case_rows(options, number, case)]
     rows += map_rows(options)
     manifest = json.loads((options.out / "any-hand/manifest.json").read_text(encoding="utf-8"))
-    print(json.dumps({"about": f"Ten seeds a case, {FIRST_SEED} on; 200 points drawn of any-hand.",
-                      "commit": manifest["commit"],
-                      "date": datetime.date.today().isoformat(),
-                      "machine": f"{os.cpu_count()} processors",
-                      "command": "scripts/weak_points.py"})[:-1] + ', "rows": [')
-    print(",\n".join("  " + json.dumps(one) for one in rows))
-    print("]}")
+    data_rows.print_file(
+        {"about": f"Ten seeds a case, {FIRST_SEED} on; 200 points drawn of any-hand.",
+         **data_rows.head(manifest, "scripts/weak_points.py")}, rows)
     return 0
 
 

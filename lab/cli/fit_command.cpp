@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/fit_command.hpp"
 
+#include "lab/cli/exit_codes.hpp"
 #include "lab/cli/files.hpp"
 #include "lab/hands/population.hpp"
 #include "proto/disk/result_file.hpp"
@@ -17,10 +18,6 @@ namespace hapnet::lab {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* fit_exit_codes = R"(  0  done
-  2  bad usage or input
-  3  the system refused (no permission, disk full))";
 
 /// An experiment that ranks the algorithms with the unseen trials, with the seen ones and with the
 /// simulated ones. The seen trials show how much people's own rankings differ.
@@ -88,7 +85,7 @@ cli::Command& add_fit(cli::Command& program, FitHandsCommand& fit)
                        "  hapnet-lab fit hands people --out fitted\n"
                        "  hapnet-lab run fitted/judge.toml --out results/judge\n"
                        "  hapnet-lab fit hands people --unseen 02,03 --trials 20 --out fitted");
-    command.add_exit_codes(fit_exit_codes);
+    command.add_exit_codes(exit_codes_without_run);
     command.positional("DIR", "A folder of recorded hands", cli::into(fit.people))
         .required("people");
     command.option("--unseen", "half|NAMES",

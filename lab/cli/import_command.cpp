@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/cli/import_command.hpp"
 
+#include "lab/cli/exit_codes.hpp"
 #include "lab/cli/files.hpp"
 #include "proto/base/lines.hpp"
 #include "proto/disk/result_file.hpp"
@@ -17,10 +18,6 @@ namespace hapnet::lab {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* import_exit_codes = R"(  0  done
-  2  bad usage or input
-  3  the system refused (no permission, disk full))";
 
 /// Reads a scale: "fit", or a factor.
 base::Result<std::optional<double>> parse_scale(const std::string& text)
@@ -122,7 +119,7 @@ cli::Command& add_import(cli::Command& program, ImportHandsCommand& import)
         "    --rate 120Hz --subject 01 --trial 1 --out people\n"
         "  hapnet-lab import hands a.csv b.csv --axes x,z,-y --smooth 6Hz --scale fit --out "
         "people");
-    command.add_exit_codes(import_exit_codes);
+    command.add_exit_codes(exit_codes_without_run);
     command
         .positional("FILE", "A table of one person or of two; or one of A and one of B",
                     cli::onto(import.files))

@@ -3,6 +3,7 @@
 #include "lab/cli/options.hpp"
 
 #include "emulator/core/profile/settings.hpp"
+#include "lab/cli/exit_codes.hpp"
 #include "lab/cli/fit_command.hpp"
 #include "lab/cli/import_command.hpp"
 #include "lab/cli/schemas.hpp"
@@ -55,10 +56,6 @@ constexpr const char* footer =
 
 constexpr const char* exit_codes = R"(  0  done
   1  the run failed, or a comparison did not hold
-  2  bad usage or input
-  3  the system refused (no permission, disk full))";
-
-constexpr const char* exit_codes_without_run = R"(  0  done
   2  bad usage or input
   3  the system refused (no permission, disk full))";
 
