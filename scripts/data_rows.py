@@ -57,11 +57,14 @@ def head(manifest, command):
             "machine": f"{manifest['host']['processors']} processors", "command": command}
 
 
-def print_file(of_head, rows):
-    """Prints a data file, with a line for each row."""
-    print(json.dumps(of_head)[:-1] + ', "rows": [')
-    print(",\n".join("  " + json.dumps(one) for one in rows))
-    print("]}")
+def print_file(of_head, **lists):
+    """Prints a data file, with a line for each element of these lists, such as rows=[...]."""
+    print(json.dumps(of_head)[:-1], end="")
+    for name, elements in lists.items():
+        print(f', "{name}": [')
+        print(",\n".join("  " + json.dumps(one) for one in elements))
+        print("]", end="")
+    print("}")
 
 
 def main():
@@ -86,7 +89,7 @@ def main():
     if not rows:
         refuse(f"no row of {options.table} is as --where says")
     manifest = read(options.folder / "manifest.json")
-    print_file(head(manifest, options.command or manifest["command"]), rows)
+    print_file(head(manifest, options.command or manifest["command"]), rows=rows)
     return 0
 
 

@@ -19,10 +19,14 @@ import pathlib
 import statistics
 import sys
 
+sys.dont_write_bytecode = True
+import data_rows  # noqa: E402
+
 DATA = pathlib.Path(__file__).resolve().parent.parent / "docs" / "results" / "data" / "limits.json"
 KEYS = ("algorithm", "impairment", "task", "p50", "ci_low", "ci_high", "bound", "unit", "seeds",
         "decided_by")
 NUMBERS = ("p50", "ci_low", "ci_high", "seeds")
+UNITS = {"ms": "ms", "percent": "%", "of_100": "of 100"}
 # Student's t at 97.5 % by degrees of freedom, from 1 on.
 STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179)
 
@@ -55,23 +59,39 @@ def pool_of(ranges):
         yield {**rows[0], "p50": round(mean, 2), "bound": ">" if is_bounded else "=",
                "ci_low": None if is_bounded else round(mean - half, 2),
                "ci_high": None if is_bounded else round(mean + half, 2),
+               "least": min(values), "largest": max(values),
                "seeds": sum(row["seeds"] for row in rows),
                "decided_by": statistics.mode(row["decided_by"] for row in rows)}
 
 
-def data_of(folder):
+def rows_of(ranges):
+    """Those of scripts/result_tables.py: the pool, and the least and the largest of its ranges."""
+    limits = list(pool_of(ranges))
+    for impairment in dict.fromkeys(one["impairment"] for one in limits):
+        of_impairment = [one for one in limits if one["impairment"] == impairment]
+        case = f"{impairment.replace('-', ' ')}, {UNITS[of_impairment[0]['unit']]}"
+        for metric, key in (("limit", "p50"), ("95 % from", "ci_low"),
+                            ("95 % to", "ci_high"), ("least", "least"),
+                            ("largest", "largest")):
+            for one in of_impairment:
+                if one["bound"] == "=":
+                    yield data_rows.row(case, one["algorithm"], metric, one[key])
+        for one in of_impairment:
+            if one["bound"] == ">":
+                yield data_rows.row(case, one["algorithm"], "limit above", one["p50"])
+
+
+def print_data(folder):
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     ranges = []
     for path in sorted(folder.glob("range-*.csv")):
         rows = [row for row in limits_in(path) if row["task"] == "worst"]
         ranges.append({"first_seed": int(path.stem.split("-")[1]), "limits": rows})
-    host = manifest["host"]
-    return {"about": "Limits of Fig. 6 by fresh seeds: means over ranges of 40, and the ranges.",
-            "commit": manifest["commit"], "date": manifest["start"][:10],
-            "machine": f"{host['processors']} processors, {host['machine']}, {host['system']}",
-            "command": "scripts/limits_pool.sh",
-            "seeds": {"first": ranges[0]["first_seed"], "count": 40 * len(ranges)},
-            "pool": list(pool_of(ranges)), "ranges": ranges}
+    data_rows.print_file(
+        {"about": "Limits of Fig. 6 by fresh seeds: means over ranges of 40, and the ranges.",
+         **data_rows.head(manifest, "scripts/limits_pool.sh"),
+         "seeds": {"first": ranges[0]["first_seed"], "count": 40 * len(ranges)}},
+        rows=rows_of(ranges), ranges=ranges)
 
 
 def half_width(row):
@@ -108,9 +128,9 @@ def main(arguments):
         return 2
     folder = pathlib.Path(arguments[1])
     if arguments[0] == "data":
-        print(json.dumps(data_of(folder), indent=1))
+        print_data(folder)
         return 0
-    pool = json.loads(DATA.read_text(encoding="utf-8"))["pool"]
+    pool = list(pool_of(json.loads(DATA.read_text(encoding="utf-8"))["ranges"]))
     lines = list(agreement(limits_in(folder / "limits.csv"), pool))
     for _, line in lines:
         print(line)

@@ -160,7 +160,7 @@ def main():
              f"the unseen trials.")
     data_rows.print_file({"about": about,
                           **data_rows.head(options.manifest, "scripts/recorded_hands.py PEOPLE")},
-                         rows)
+                         rows=rows)
     return 0
 
 

@@ -123,7 +123,7 @@ def main():
     manifest = json.loads((options.out / "any-hand/manifest.json").read_text(encoding="utf-8"))
     data_rows.print_file(
         {"about": f"Ten seeds a case, {FIRST_SEED} on; 200 points drawn of any-hand.",
-         **data_rows.head(manifest, "scripts/weak_points.py")}, rows)
+         **data_rows.head(manifest, "scripts/weak_points.py")}, rows=rows)
     return 0
 
 

@@ -21,10 +21,9 @@ sys.path.insert(0, str(REPOSITORY / "scripts"))
 import result_tables
 
 RESULTS = REPOSITORY / "docs" / "results"
-LIMITS = "limits.json"  # scripts/limits_pool.py writes and reads it
 PAGES = [page for page in sorted(RESULTS.glob("*.md"))
          if "<!-- data:" in page.read_text(encoding="utf-8")]
-FILES = [file for file in sorted((RESULTS / "data").glob("*.json")) if file.name != LIMITS]
+FILES = sorted((RESULTS / "data").glob("*.json"))
 
 
 def run(*arguments):
