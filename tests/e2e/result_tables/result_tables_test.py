@@ -188,5 +188,71 @@ class RowsOfATableOfResults(unittest.TestCase):
             self.assertIn(said, done.stderr)
 
 
+class LongTables(unittest.TestCase):
+    """The rows that scripts/long_tables.py takes from made results."""
+
+    LIMITS = "algorithm,impairment,task,{},limit,bound,unit,p50,ci_low,ci_high\n"
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+        conventions = self.LIMITS.format("filter_order,hand")
+        self.write("fig6a/limits_by_convention.csv", conventions +
+                   "base,delay,T1,1,firm,170,=,ms,,,\nbase,delay,T2,1,firm,155,=,ms,,,\n"
+                   "base,delay,T1,4,firm,99,=,ms,,,\n")
+        self.write("fig6b/limits_by_convention.csv", conventions)
+        for name in ("velocity-rule", "horizon", "jitter-order", "path-delay"):
+            self.write(f"{name}/limits_by_axis.csv", self.LIMITS.format("value"))
+        self.write("horizon/limits_by_axis.csv", self.LIMITS.format("value") +
+                   "a,jitter,T1,none,3,=,ms,3,2,4\na,jitter,worst,none,20,>,ms,20,20,\n")
+        self.write("plane/manifest.json", json.dumps(
+            {"commit": "c", "start": "2026-11-26T10:00:00Z", "host": {"processors": 2}}))
+        self.write("plane/qos.csv", "algorithm,task,delay_ms,jitter_ms,loss_percent,tier\n"
+                   "a,T1,0,0,0,good\na,T1,9,0,0,usable\na,T2,0,0,0,usable\na,T2,9,0,0,unusable\n")
+        self.write("any-network/sessions_by_point.csv", "point,algorithm,task,tier\n"
+                   "1,a,P1,good\n1,a,T1,unusable\n")
+        precision = ("algorithm,task,figure,value,reference,seeds,found,difference,ci_low,ci_high,"
+                     "error\n")
+        self.write("work-precision/precision.csv", precision +
+                   "a,T1,mean_mm,2ms,1ms,10,5,9,,,1\na,T1,mean_mm,2ms,1ms,20,5,0.5,0.4,0.6,1\n"
+                   "a,T1,mean_mm,1ms,1ms,10,4,,,,0.25\na,T1,mean_mm,1ms,1ms,20,4.5,0,,,0\n")
+        self.write("work-precision-limits/precision.csv", precision)
+        done = subprocess.run([REPOSITORY / "scripts/long_tables.py", self.path], check=True,
+                              capture_output=True, text=True)
+        self.rows = [(row["case"], row["subject"], row["metric"], row["value"])
+                     for row in json.loads(done.stdout)["rows"]]
+
+    def write(self, name, text):
+        path = self.path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def of_case(self, beginning):
+        return [row[1:] for row in self.rows if row[0].startswith(beginning)]
+
+    def test_a_limit_is_that_of_the_task_with_the_lowest_one(self):
+        self.assertEqual(self.of_case("by hand: base"), [("firm", "delay, ms", 155)])
+
+    def test_a_limit_beyond_the_search_has_no_interval(self):
+        self.assertEqual(self.of_case("horizon none: a"),
+                         [("limit", "jitter, ms", 20), ("95 % from", "jitter, ms", None),
+                          ("95 % to", "jitter, ms", None)])
+
+    def test_networks_count_by_task_and_in_all(self):
+        self.assertEqual(self.of_case("plane: a"),
+                         [("T1", "usable networks", 2), ("T2", "usable networks", 1),
+                          ("all tasks", "usable networks", 1), ("T1", "good networks", 1),
+                          ("T2", "good networks", 0), ("all tasks", "good networks", 0)])
+        self.assertEqual(self.of_case("any-network: a")[:2],
+                         [("T1", "usable networks", 0), ("all tasks", "usable networks", 0)])
+
+    def test_errors_are_those_of_all_seeds(self):
+        self.assertEqual(self.of_case("tick: a, T1, mean_mm"),
+                         [("2ms", "difference", 0.5), ("2ms", "95 % from", 0.4),
+                          ("2ms", "95 % to", 0.6), ("1ms", "error of ten seeds", 0.25),
+                          ("1ms", "figure", 4.5)])
+
+
 if __name__ == "__main__":
     unittest.main()
