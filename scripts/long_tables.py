@@ -7,12 +7,14 @@
 
 DIR is what `scripts/reproduce.sh --all --out DIR` has left. The file is one of
 scripts/result_tables.py. It has limits by hand and by the order of the filter, limits by other
-readings of the paper, how many networks an algorithm bears, and the errors of the tick. A limit is
-that of the task with the lowest one. A limit without an interval is the most that was tried.
+readings of the paper, how many networks an algorithm bears, the delay that two to five hands bear,
+and the errors of the tick. A limit is that of the task with the lowest one. A limit without an
+interval is the most that was tried. Exits 2 where one of the experiments is missing.
 """
 import argparse
 import collections
 import csv
+import itertools
 import json
 import pathlib
 import sys
@@ -28,9 +30,17 @@ READINGS = {"velocity-rule": "velocity", "horizon": "horizon", "jitter-order": "
 TIERS = {"usable": ("usable", "good"), "good": ("good",)}
 
 
+def text_of(path):
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        print(f"long_tables: {path}: {error.strerror}: run scripts/reproduce.sh --all --out DIR",
+              file=sys.stderr)
+        sys.exit(2)
+
+
 def rows_in(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    return list(csv.DictReader(text_of(path).splitlines()))
 
 
 def number(text):
@@ -86,6 +96,19 @@ def network_rows(folder):
                                         len(networks))
 
 
+def hand_rows(folder):
+    """Up to which delay an algorithm bears every delay that was tried, by the number of hands."""
+    tiers = collections.defaultdict(list)
+    for row in rows_in(folder / "many/qos.csv"):
+        key = f"hands: {row['algorithm']}", f"{row['peers']} hands", row["task"]
+        tiers[key].append((float(row["delay_ms"]), row["tier"]))
+    for (case, hands, task), by_delay in tiers.items():
+        for tier, enough in TIERS.items():
+            borne = list(itertools.takewhile(lambda one: one[1] in enough, sorted(by_delay)))
+            yield data_rows.row(case, hands, f"{task} {tier}, ms",
+                                borne[-1][0] if borne else None)
+
+
 def precision_rows(folder):
     """How far the figures of each tick are from those of the shortest, by all seeds, and what fewer
     seeds are off."""
@@ -115,9 +138,9 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, metavar="DIR")
     folder = parser.parse_args().folder
-    manifest = json.loads((folder / "plane/manifest.json").read_text(encoding="utf-8"))
-    rows = [row for rows_of in (convention_rows, reading_rows, network_rows, precision_rows)
-            for row in rows_of(folder)]
+    manifest = json.loads(text_of(folder / "plane/manifest.json"))
+    tables = convention_rows, reading_rows, network_rows, hand_rows, precision_rows
+    rows = [row for rows_of in tables for row in rows_of(folder)]
     data_rows.print_file(
         {"about": "A limit is that of the task with the lowest one; without an interval it is the "
                   "most that was tried.",

@@ -212,6 +212,9 @@ class LongTables(unittest.TestCase):
                    "a,T1,0,0,0,good\na,T1,9,0,0,usable\na,T2,0,0,0,usable\na,T2,9,0,0,unusable\n")
         self.write("any-network/sessions_by_point.csv", "point,algorithm,task,tier\n"
                    "1,a,P1,good\n1,a,T1,unusable\n")
+        self.write("many/qos.csv", "algorithm,task,peers,delay_ms,tier\n" + "".join(
+            f"a,T7,3,{delay},{tier}\n" for delay, tier in (
+                (20, "unusable"), (0, "good"), (10, "usable"), (30, "good"))))
         precision = ("algorithm,task,figure,value,reference,seeds,found,difference,ci_low,ci_high,"
                      "error\n")
         self.write("work-precision/precision.csv", precision +
@@ -246,6 +249,10 @@ class LongTables(unittest.TestCase):
                           ("T2", "good networks", 0), ("all tasks", "good networks", 0)])
         self.assertEqual(self.of_case("any-network: a")[:2],
                          [("T1", "usable networks", 0), ("all tasks", "usable networks", 0)])
+
+    def test_the_delay_of_hands_is_borne_like_every_shorter_one(self):
+        self.assertEqual(self.of_case("hands: a"), [("3 hands", "T7 usable, ms", 10),
+                                                    ("3 hands", "T7 good, ms", 0)])
 
     def test_errors_are_those_of_all_seeds(self):
         self.assertEqual(self.of_case("tick: a, T1, mean_mm"),
