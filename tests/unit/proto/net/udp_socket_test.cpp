@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,7 +26,7 @@ void wait_for_stamps(UdpSocket& a, UdpSocket& b)
     constexpr int tries_max = 100;
     for (int i = 0; i < tries_max; ++i) {
         ASSERT_EQ(a.send(b.local(), datagram(96, 1)), SendOutcome::sent);
-        std::this_thread::sleep_for(2 * stamp_tolerance);
+        wait_readable(std::array{a.descriptor()}, monotonic_now() + 2 * stamp_tolerance);
         const auto asked = monotonic_now();
         const auto arrived = receive(b, 1);
         ASSERT_EQ(arrived.size(), 1U);
